@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
+use stickslip::contact::look;
 
 use stickslip::Error;
 use stickslip::body::CellState;
@@ -468,7 +469,7 @@ impl Printer {
                         "\n total contact spring energy for time {}\n\n",
                         time(self.time)
                     ));
-                    let sum: f64 = interfaces().map(|i| i.energy().stored).sum();
+                    let sum: f64 = interfaces().map(|i| look::energy(i.view()).stored).sum();
                     row(out, "      ", &[sum]);
                 }
                 "CF" | "CFN" | "CFS" => {
@@ -499,7 +500,7 @@ impl Printer {
         out: &mut String,
         gaps: bool,
     ) {
-        let (names, columns) = interface.table(&analysis.frame.state.u);
+        let (names, columns) = look::table(interface.view(), &analysis.frame.state.u);
         let column = |name: &str| names.iter().position(|n| n == name).map(|i| &columns[i]);
         let value = |name: &str, i: usize| column(name).map_or(0.0, |c| c[i]);
         let count = columns.first().map_or(0, Vec::len);
@@ -519,12 +520,12 @@ impl Printer {
 
     /// What is stored at the points of an interface that are in contact.
     fn energies_in_contact(&self, analysis: &Analysis, interface: &Interface, out: &mut String) {
-        let (names, columns) = interface.table(&analysis.frame.state.u);
+        let (names, columns) = look::table(interface.view(), &analysis.frame.state.u);
         let column = |name: &str| names.iter().position(|n| n == name).map(|i| &columns[i]);
         let (Some(nodes), Some(status)) = (column("node"), column("CSTATUS")) else {
             return;
         };
-        let stored = interface.stored_by_point();
+        let stored = look::stored_by_point(interface.view());
         for (energy, (node, status)) in stored.iter().zip(nodes.iter().zip(status)) {
             if *status > 0.0 {
                 row(out, &self.label(*node as u64), &[*energy]);
@@ -540,7 +541,7 @@ impl Printer {
 
 /// How many points of an interface are in contact.
 fn count_in_contact(analysis: &Analysis, interface: &Interface) -> usize {
-    let (names, columns) = interface.table(&analysis.frame.state.u);
+    let (names, columns) = look::table(interface.view(), &analysis.frame.state.u);
     let at = names.iter().position(|n| n == "CSTATUS");
     at.map_or(0, |c| columns[c].iter().filter(|s| **s > 0.0).count())
 }
@@ -593,13 +594,13 @@ fn statistics(
     (part, (slave, master), t): (Part, (&str, &str), f64),
 ) {
     let u = &analysis.frame.state.u;
-    let r = interface.resultant(u);
+    let r = look::resultant(interface.view(), u);
     let (force, moment) = match part {
         Part::Whole => (add(r.normal, r.shear), r.moment),
         Part::Normal => (r.normal, sub(r.moment, r.moment_of_shear)),
         Part::Shear => (r.shear, r.moment_of_shear),
     };
-    let (centre, normal) = interface.centre_and_normal(u);
+    let (centre, normal) = look::centre_and_normal(interface.view(), u);
     let about = sub(moment, cross(centre, force));
     let _ = write!(
         out,

@@ -4,6 +4,7 @@ use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, Weak};
 use std::time::{Duration, Instant};
+use stickslip::contact::look;
 
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
@@ -466,7 +467,7 @@ impl Simulation {
         let Some(interface) = contact.interfaces.iter().find(|i| i.name == name) else {
             return Err(PyKeyError::new_err(no_interface(name, &self.interfaces())));
         };
-        let (names, columns) = interface.table(&self.simulation.frame.state.u);
+        let (names, columns) = look::table(interface.view(), &self.simulation.frame.state.u);
         let columns = columns.into_iter().map(|c| {
             let shape = vec![c.len()];
             Array::floats(c, shape)

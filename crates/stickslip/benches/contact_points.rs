@@ -15,9 +15,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use stickslip::contact::enforcement::{EnforcementModel, Penalty};
-use stickslip::contact::interface::{
-    Attempt, Cache, Directives, History, Initial, Interface, Primary,
-};
+use stickslip::contact::interface::{Initial, Interface, InterfaceDefinition, Primary};
 use stickslip::contact::kinematics::{Convective, KinematicsModel, Pop1995, SmallSliding};
 use stickslip::contact::law::friction::{Coulomb, FrictionModel};
 use stickslip::contact::response::Laws;
@@ -140,7 +138,7 @@ fn interface(
         }
     }
     assert_eq!(first + points.len(), reference.len());
-    Interface {
+    Interface::new(InterfaceDefinition {
         name: "joint".into(),
         dofs: Dofs {
             dim,
@@ -170,11 +168,7 @@ fn interface(
         origin: [0.0; 3],
         initial: Initial::default(),
         relief: Vec::new(),
-        history: History::default(),
-        attempt: Attempt::default(),
-        directives: Directives::default(),
-        cache: Cache::default(),
-    }
+    })
 }
 
 /// All points of the secondary lowered and pushed.

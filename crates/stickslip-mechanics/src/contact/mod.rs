@@ -1,4 +1,4 @@
-//! Contact: surface → search → pairing → kinematics → law → enforcement → interface.
+//! Contact: surface → search → pairing → kinematics → law → enforcement → interface → look.
 //!
 //! | stage | file | knows |
 //! |---|---|---|
@@ -13,6 +13,7 @@
 //! | law, enforcement | `law/`, `enforcement/` | numbers in, numbers and derivatives out |
 //! | response | `response/` | traction and its derivatives in the frame of the stencil |
 //! | interface | `interface/` | the only place that scatters into residual and tangent |
+//! | look | `look/` | what an interface says of itself: functions of shared references, which cannot write |
 //!
 //! # The stages
 //!
@@ -25,8 +26,8 @@
 //!   place near the middle of a model that lies more than 16 times its size away. Places and moments that leave the interface are those of space.
 //! - *Sides.* Which side has the points follows from the meshes: where the cells of the secondary are larger than those of the primary by more than a quarter, `problem/build` makes the
 //!   interface the other way round (`Interface::exchanged`), since between points that are far apart a finer surface enters unseen. Inside, secondary is what has the points;
-//!   what is reported (`values.rs`, `resultant.rs`, `sides.rs`) is of the sides as the problem names them.
-//! - *Between points* nothing is checked while the solution is sought. `interface/between.rs` measures afterwards, from the geometry alone, how far the surfaces enter each other
+//!   what is reported (`look/`) is of the sides as the problem names them.
+//! - *Between points* nothing is checked while the solution is sought. `look/between.rs` measures afterwards, from the geometry alone, how far the surfaces enter each other
 //!   or stand apart there, for the quality gate.
 //! - *Mortar.* `mortar/` cuts faces of the secondary and facets of the primary along each other in a plane, and integrates gap and shape functions over the
 //!   pieces with dual functions as weights. The gap is measured along normals of the reference that turn with the secondary as a whole: a pair that turns as one keeps
@@ -68,6 +69,7 @@ pub mod facet_point;
 pub mod interface;
 pub mod kinematics;
 pub mod law;
+pub mod look;
 pub mod mortar;
 pub mod obstacle;
 pub mod pairing;

@@ -3,7 +3,7 @@
 //! A body that turns by the small rotation `θ` about a place `c` moves by `θ × (x - c)`, and misses `½ θ × (θ × (x - c))` of what it should: it grows by half the square of the
 //! angle. How much that is beside its own size says nothing of contact. What it makes of the gap does, beside the way by which the bodies have come nearer elastically.
 
-use crate::contact::interface::Pressing;
+use crate::contact::look::Pressing;
 use crate::math::{Vec3, add, cross, dot, scale, sub};
 use crate::model::anchors::Anchors;
 

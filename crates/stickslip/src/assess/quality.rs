@@ -1,5 +1,6 @@
 //! The quality gate: figures by which accepted increments are judged, and their limits.
 
+use crate::contact::look;
 use serde::Serialize;
 
 use super::doctor::{Finding, Peak, Watch, longest_way};
@@ -10,7 +11,8 @@ use super::figures::{
     Track, UNSEEN_TO_APPROACH, UNSEEN_TO_SIZE,
 };
 use super::view::View;
-use crate::contact::interface::{Between, Interface, Quality};
+use crate::contact::interface::Interface;
+use crate::contact::look::{Between, Quality};
 use crate::math::{Vec3, norm};
 use crate::model::definition::Model;
 use crate::model::ledger::EnergyQuality;
@@ -221,7 +223,7 @@ impl View<'_> {
     /// Elastic energy of bodies and compliant interfaces `[J]`.
     pub(super) fn elastic_energy(&self) -> f64 {
         let interfaces = self.contact.interfaces.iter();
-        let compliant = interfaces.map(Interface::law_energy).sum::<f64>();
+        let compliant = interfaces.map(|i| look::law_energy(i.view())).sum::<f64>();
         self.frame.ledger.strain + compliant
     }
 
@@ -265,7 +267,7 @@ impl View<'_> {
     pub(crate) fn watch(&self, watches: &mut [Watch]) {
         let (u, t) = (&self.frame.state.u, self.frame.state.t);
         for (watch, interface) in watches.iter_mut().zip(&self.contact.interfaces) {
-            watch.note(interface, &interface.resultant(u), (u, t));
+            watch.note(interface, &look::resultant(interface.view(), u), (u, t));
         }
     }
 
@@ -277,8 +279,12 @@ impl View<'_> {
             _ => 0.0,
         };
         let tied = self.contact.interfaces.iter();
-        let tied =
-            tied.filter_map(|i| Some((format!("interface {}", i.name), i.tie_spring_energy()?)));
+        let tied = tied.filter_map(|i| {
+            Some((
+                format!("interface {}", i.name),
+                look::tie_spring_energy(i.view())?,
+            ))
+        });
         let coupled = self.contact.couplings.spring_energies().into_iter();
         let coupled = coupled.map(|(name, stored)| (format!("coupling {name}"), stored));
         for (place, stored) in tied.chain(coupled) {
@@ -288,8 +294,8 @@ impl View<'_> {
         let ways = self.model.bodies.iter().map(|body| self.way(body));
         let way = ways.fold(0.0, f64::max);
         for interface in &self.contact.interfaces {
-            let q = interface.quality();
-            let r = interface.resultant(&self.frame.state.u);
+            let q = look::quality(interface.view());
+            let r = look::resultant(interface.view(), &self.frame.state.u);
             let place = format!("interface {}", interface.name);
             let whole = 2.0 * energy / r.carried.max(f64::MIN_POSITIVE);
             let approach = match r.carried > 0.0 {
@@ -297,21 +303,24 @@ impl View<'_> {
                 false => 0.0,
             };
             if interface.laws.tied && approach > 0.0 {
-                let pair = [interface.opening(&self.frame.state.u), approach.min(way)];
+                let pair = [
+                    look::opening(interface.view(), &self.frame.state.u),
+                    approach.min(way),
+                ];
                 gate.note_in_motion(&TIE_OPENING, &place, pair, limits.tie_opening, t);
             }
-            let between = interface.between(&self.frame.state.u, t);
+            let between = look::between(interface.view(), &self.frame.state.u, t);
             judge_between(interface, (between, approach), limits, (gate, &place, t));
             if r.carried <= 0.0 {
                 continue;
             }
-            if interface.on_springs() && !interface.laws.tied {
+            if look::on_springs(interface.view()) && !interface.laws.tied {
                 let pair = [0.5 * q.violation_work, energy];
                 let limit = limits.explicit_penetration;
                 gate.note_in_motion(&EXPLICIT_PENETRATION, &place, pair, limit, t);
             }
             let mut note = |kind, pair, limit| gate.note(kind, &place, pair, limit, t);
-            if !interface.on_springs() {
+            if !look::on_springs(interface.view()) {
                 let size = [q.relative_to_size, 1.0];
                 let bridged = [q.complementarity * q.pressed, q.pressed];
                 note(&PENETRATION_TO_SIZE, size, limits.penetration_to_size);
@@ -332,17 +341,17 @@ impl View<'_> {
             let uneven = [q.oscillation * r.total, r.total];
             note(&OSCILLATION, uneven, limits.oscillation);
             if let Some(limit) = longest_way(self.model, interface) {
-                let way = [interface.slid(), limit];
+                let way = [look::slid(interface), limit];
                 note(&EXPLICIT_WEAR, way, limits.explicit_wear);
             }
-            if let Some(pair) = interface.false_shear(&self.frame.state.u) {
+            if let Some(pair) = look::false_shear(interface.view(), &self.frame.state.u) {
                 note(&FALSE_SHEAR, pair, limits.false_shear);
             }
             let excess = [q.excess_shear * q.limit, q.limit];
             note(&EXCESS_SHEAR, excess, limits.excess_shear);
             let wrong = [q.friction_law * q.limit, q.limit];
             note(&FRICTION_LAW, wrong, limits.friction_law);
-            let b = interface.balance(&self.frame.state.u);
+            let b = look::balance(interface.view(), &self.frame.state.u);
             if b.scale > 0.0 {
                 let force = [norm(b.force), b.scale];
                 let moment = [norm(b.moment), b.scale * b.size];
@@ -406,7 +415,7 @@ fn judge_between(
     let mut missed = between.penetration.max(between.apart);
     if approach == 0.0 && missed > 0.0 {
         // Facets of curved surfaces may overlap in the meshes where nothing presses.
-        missed = (missed - interface.overlap_between(t)).max(0.0);
+        missed = (missed - look::overlap_between(interface.view(), t)).max(0.0);
     }
     if missed > 0.0 || approach > 0.0 {
         let size = [between.relative_to_size, 1.0];
@@ -505,14 +514,14 @@ pub(crate) fn interfaces(view: &View, gate: &Gate, watches: &[Watch]) -> Vec<Int
     let energy = view.elastic_energy();
     let all = view.contact.interfaces.iter().zip(watches);
     all.map(|(interface, watch)| {
-        let quality = interface.quality();
-        let r = interface.resultant(&view.frame.state.u);
-        let b = interface.balance(&view.frame.state.u);
+        let quality = look::quality(interface.view());
+        let r = look::resultant(interface.view(), &view.frame.state.u);
+        let b = look::balance(interface.view(), &view.frame.state.u);
         let place = format!("interface {}", interface.name);
         let floor = |kind| gate.floor(kind, &place);
         let strain = view.frame.ledger.strain;
         let whole = 2.0 * strain / r.carried.max(f64::MIN_POSITIVE);
-        let factor = interface.numerical_factor();
+        let factor = look::numerical_factor(interface.view());
         let tied = interface.laws.tied;
         InterfaceSummary {
             name: interface.name.clone(),
@@ -525,8 +534,8 @@ pub(crate) fn interfaces(view: &View, gate: &Gate, watches: &[Watch]) -> Vec<Int
             normal_force: r.normal,
             shear_force: r.shear,
             area: r.area,
-            points: (!tied).then(|| interface.committed_tally().into()),
-            friction_work: (!tied).then(|| interface.energy().dissipated),
+            points: (!tied).then(|| look::committed_tally(interface.view()).into()),
+            friction_work: (!tied).then(|| look::energy(interface.view()).dissipated),
             quality,
             relative_to_approach: ratio(quality.penetration, whole),
             action_reaction: ratio(norm(b.force), b.scale.max(floor(&ACTION_REACTION))),

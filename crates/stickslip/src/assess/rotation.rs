@@ -5,6 +5,7 @@ use super::missed::{Turned, missed_gaps};
 use super::quality::Gate;
 use super::view::View;
 use crate::contact::interface::Interface;
+use crate::contact::look;
 use crate::math::{Vec3, dot};
 use crate::model::limits::Limits;
 
@@ -25,13 +26,13 @@ impl View<'_> {
         let energy = self.elastic_energy();
         for interface in &self.contact.interfaces {
             let place = format!("interface {}", interface.name);
-            let r = interface.resultant(&self.frame.state.u);
+            let r = look::resultant(interface.view(), &self.frame.state.u);
             if r.carried <= 0.0 {
                 continue;
             }
             let missed = self.missed(interface, &turned);
             // Beside the elastic approach, as penetration is; both sides times the force.
-            let elastic = (2.0 * energy).max(r.carried * interface.quality().layer);
+            let elastic = (2.0 * energy).max(r.carried * look::quality(interface.view()).layer);
             let pair = [missed * r.carried, elastic];
             let limit = limits.rotation_to_approach;
             match self.inertia().is_some() || self.explicit.is_some() {
@@ -46,7 +47,7 @@ impl View<'_> {
         if turned.iter().all(Option::is_none) {
             return 0.0;
         }
-        let points = interface.pressing();
+        let points = look::pressing(interface.view());
         let of = |point: Option<usize>| turned[self.body_of(point?)?].as_ref();
         let sides: Vec<_> = points.iter().map(|p| p.sides.map(of)).collect();
         let missed = missed_gaps(&points, &sides);

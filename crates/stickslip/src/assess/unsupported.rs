@@ -2,6 +2,7 @@
 
 use super::doctor::{DoctorCause, Finding, Guilty, Severity, body_at, let_go};
 use super::view::View;
+use crate::contact::look;
 use crate::error::RunError;
 use crate::model::drivers::named;
 use crate::model::unheld::{NO_PART, modes};
@@ -157,7 +158,9 @@ impl View<'_> {
 
     fn smallest_gaps(&self) -> String {
         let gaps = self.contact.interfaces.iter().map(|i| {
-            let smallest = i.initial_gaps().into_iter().fold(f64::INFINITY, f64::min);
+            let smallest = look::initial_gaps(i.view())
+                .into_iter()
+                .fold(f64::INFINITY, f64::min);
             format!("{}: {smallest:.3e}", i.name)
         });
         match gaps.collect::<Vec<_>>().as_slice() {

@@ -10,6 +10,7 @@
 //!
 //! Rows that say the same twice leave `λ` undetermined, but not `Aᵀ λ`: conjugate gradients find one of all.
 
+use crate::contact::look;
 use std::collections::BTreeMap;
 
 use crate::body::couplings::ExactForce;
@@ -107,7 +108,7 @@ impl Exact {
         let forces = before.forces[before.coupled.len()..].iter();
         let mut known = before.tied.iter().zip(forces);
         for (k, interface) in contact.interfaces.iter().enumerate() {
-            for row in interface.tie_rows() {
+            for row in look::tie_rows(interface) {
                 let of = [k, row.point, row.direction];
                 // The rows of a tie are the same from one increment to the next.
                 let force = known.next().filter(|(known, _)| **known == of);

@@ -4,6 +4,7 @@
 //! v½ = v₀ + dt/2 a₀,   u₁ = u₀ + dt v½,   a₁ = (F₁ - f(u₁) - C v½ - R(u₁)) / m,   v₁ = v½ + dt/2 a₁
 //! ```
 
+use crate::contact::look;
 use std::borrow::Cow;
 use std::sync::Arc;
 
@@ -397,8 +398,8 @@ impl Explicit {
         let all = contact.interfaces.iter();
         let links = &model.links;
         let of = |i: &Interface| {
-            let squared = i.highest_frequency(&self.inverse, links);
-            (squared, i.highest_rate(&self.inverse, links))
+            let squared = look::highest_frequency(i, &self.inverse, links);
+            (squared, look::highest_rate(i, &self.inverse, links))
         };
         let (squared, rate) = all.map(of).fold((0.0, 0.0), |s, i| (s.0 + i.0, s.1 + i.1));
         let t = frame.state.t + AFTER * (step.end - step.start);

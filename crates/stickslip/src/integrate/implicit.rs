@@ -4,6 +4,7 @@ use super::impulse::{is_impulse, kicked, stop};
 use super::integrator::Integrator;
 use super::quasi_static::pairs;
 use super::sight::Acting;
+use crate::contact::look;
 use std::borrow::Cow;
 
 use crate::math::vector::dot;
@@ -399,7 +400,7 @@ impl Implicit {
         let dt = trial.to - trial.from;
         let smallest = model.steps[frame.step].increments.smallest;
         let interfaces = contact.interfaces.iter();
-        let switched: usize = interfaces.map(|interface| interface.switched()).sum();
+        let switched: usize = interfaces.map(|interface| look::switched(interface)).sum();
         if switched > 0 && dt > tolerance && 0.5 * dt >= smallest {
             return Err(StepFailure::new(
                 Cause::Event,

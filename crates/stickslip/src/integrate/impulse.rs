@@ -19,6 +19,7 @@
 //! [`jean_moreau_1992`](crate::references::jean_moreau_1992) with no restitution. A projection makes no energy.
 
 use crate::contact::interface::Pressed;
+use crate::contact::look;
 use crate::math::vector::dot;
 use crate::model::contact::Contact;
 use crate::model::definition::{ContactAt, Dynamic, Model};
@@ -46,7 +47,8 @@ pub(super) fn is_impulse(
     dynamic.contact_at == ContactAt::End
         && contact.couplings.is_empty()
         && acting().next().is_some()
-        && acting().all(|i| i.is_hard() && i.stands(from, to) && !i.nodes.iter().any(light))
+        && acting()
+            .all(|i| look::is_hard(i.view()) && i.stands(from, to) && !i.nodes.iter().any(light))
 }
 
 /// `M⁻¹ f` over all dofs, zero where they are fixed.

@@ -4,6 +4,7 @@ use super::implicit::{BACKWARD, Implicit, difference};
 use super::integrator::Integrator;
 use super::sight::{enter_here, leave};
 use crate::body::couplings::Couplings;
+use crate::contact::look;
 use crate::error::Error;
 use crate::math::vector::dot;
 use crate::model::contact::Contact;
@@ -344,7 +345,7 @@ fn forces_are_sought(model: &Model, contact: &Contact, inertia: &Inertia, t: f64
         let laws = &interface.laws;
         let sought =
             laws.needs_normal_stiffness() && heavy() || laws.friction_law().frictional() && rigid();
-        interface.schedule.active(t) && sought && interface.touches()
+        interface.schedule.active(t) && sought && look::touches(interface)
     })
 }
 

@@ -95,7 +95,8 @@ impl<'a> Sight<'a> {
     /// Lets interfaces see bodies from here; the frames that they had.
     pub fn enter(&self, model: &Model, contact: &mut Contact) -> Vec<Arc<BodyFrames>> {
         let interfaces = contact.interfaces.iter_mut().filter(|i| turns(model, i));
-        let each = interfaces.map(|i| std::mem::replace(&mut i.frames, Arc::clone(&self.all)));
+        let each =
+            interfaces.map(|i| std::mem::replace(&mut i.definition.frames, Arc::clone(&self.all)));
         each.collect()
     }
 
@@ -285,7 +286,7 @@ pub(super) fn enter_here(model: &Model, contact: &mut Contact, u: &[f64]) -> Vec
     let interfaces = contact.interfaces.iter_mut().filter(|i| turns(model, i));
     let each = interfaces.map(|i| match i.frames.is_empty() {
         true => Arc::clone(&i.frames),
-        false => std::mem::replace(&mut i.frames, Arc::clone(&here)),
+        false => std::mem::replace(&mut i.definition.frames, Arc::clone(&here)),
     });
     each.collect()
 }
@@ -295,7 +296,7 @@ pub(super) fn leave(model: &Model, contact: &mut Contact, before: Vec<Arc<BodyFr
     let interfaces = contact.interfaces.iter_mut().filter(|i| turns(model, i));
     interfaces
         .zip(before)
-        .for_each(|(i, before)| i.frames = before);
+        .for_each(|(i, before)| i.definition.frames = before);
 }
 
 /// Whether a body that turns freely takes part in it.

@@ -157,7 +157,7 @@ impl Linear {
         let all = contact.interfaces.iter();
         let before: Vec<_> = all.map(|i| (i.directives.steady, i.belt.clone())).collect();
         for interface in &mut contact.interfaces {
-            for row in &mut interface.belt {
+            for row in &mut interface.definition.belt {
                 row[1..].iter_mut().for_each(|v| *v *= factor);
             }
             if let Some(steady) = &mut interface.directives.steady {
@@ -167,7 +167,7 @@ impl Linear {
         }
         let lines = points(frame, contact, t, step.end - step.start);
         for (interface, (steady, belt)) in contact.interfaces.iter_mut().zip(before) {
-            (interface.directives.steady, interface.belt) = (steady, belt);
+            (interface.directives.steady, interface.definition.belt) = (steady, belt);
         }
         let mut linear = Linear::empty(model.dofs.dim, self.fixed.clone(), self.bound.clone());
         linear.add_all(model, &lines, &mut Parts::default());

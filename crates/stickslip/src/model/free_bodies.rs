@@ -7,6 +7,7 @@ use super::unheld::{BEYOND, Mode, NO_PART, Resisted, directions, modes, plain};
 use crate::body::couplings::Row;
 use crate::body::{RigidMode, rigid_modes};
 use crate::contact::interface::Interface;
+use crate::contact::look;
 use crate::math::{Vec3, add, cross, scale, sub, symmetric_eigen};
 use crate::system::Motion;
 
@@ -47,7 +48,7 @@ impl FreeBody {
 
     /// Whether it rubs on something at the last accepted state.
     pub fn rubs(&self, model: &Model, contact: &Contact) -> bool {
-        let mut rubbing = contact.interfaces.iter().filter(|i| i.rubs());
+        let mut rubbing = contact.interfaces.iter().filter(|i| look::rubs(i.view()));
         rubbing.any(|i| i.nodes.iter().any(|&n| self.has(model, n)))
     }
 }

@@ -1,5 +1,6 @@
 //! What is simulated and where it stands.
 
+use crate::contact::look;
 use std::borrow::Cow;
 
 use super::contact::Contact;
@@ -186,6 +187,6 @@ impl<'a> Scene<'a> {
     pub(crate) fn touches(&self, body: usize) -> bool {
         let points = &self.model.bodies[body].points;
         let mut all = self.contact.interfaces.iter().filter(|i| !i.laws.tied);
-        all.any(|i| i.touched() && i.nodes.iter().any(|n| points.contains(n)))
+        all.any(|i| look::touched(i.view()) && i.nodes.iter().any(|n| points.contains(n)))
     }
 }

@@ -4,6 +4,7 @@ use super::definition::{Model, Reference};
 use super::scene::Scene;
 use crate::body::couplings::Row;
 use crate::contact::interface::{Interface, Primary};
+use crate::contact::look;
 use crate::math::{Vec3, add, cross, dot, norm, scale, sub, symmetric_eigen};
 use crate::system::{Freedom, Motion};
 
@@ -277,7 +278,10 @@ pub(super) fn directions(interface: &Interface, t: f64) -> Vec<Vec3> {
     if interface.laws.tied || interface.laws.friction_law().frictional() {
         return all();
     }
-    let mut normals: Vec<Vec3> = interface.normals().into_iter().map(|(_, n)| n).collect();
+    let mut normals: Vec<Vec3> = look::normals(interface)
+        .into_iter()
+        .map(|(_, n)| n)
+        .collect();
     if let Primary::Rigid(shape, motion) = &interface.primary {
         let pose = motion.pose(t);
         for point in &interface.points {

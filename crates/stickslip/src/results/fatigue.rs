@@ -2,6 +2,7 @@
 //!
 //! Stress is that of the nodes, in the axes of the body as meshed. A cycle is the states at the ends of its increments. In a cycle that stands for many it is that of the one that is computed.
 
+use crate::contact::look;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
 use rayon::prelude::*;
@@ -172,7 +173,7 @@ pub(crate) fn follow(
     let interfaces = view.contact.interfaces.iter();
     record
         .rubbed
-        .push(interfaces.flat_map(|i| i.rubbing()).collect());
+        .push(interfaces.flat_map(|i| look::rubbing(i.view())).collect());
     if !cycles.ends(since) {
         return Vec::new();
     }

@@ -1,6 +1,7 @@
 //! The result directory: `fields.pvd` and `.vtu` files, `interfaces.pvd` and `interfaces/*.vtp`, `interfaces/*.csv`, `history.csv`, `cycles.csv`, `summary.json`,
 //! an `.frd` file where the problem asks for one, and `culprits.vtu` where the doctor found something.
 
+use crate::contact::look;
 use std::path::Path;
 use std::sync::Arc;
 use std::thread::JoinHandle;
@@ -16,7 +17,7 @@ use super::saved::{self, Come, Positions, Saved, Source};
 use super::summary::Summary;
 use crate::assess::doctor;
 use crate::assess::view::View;
-use crate::contact::interface::Sheet;
+use crate::contact::look::Sheet;
 use crate::error::Error;
 use crate::io::frd::{END, end_again};
 use crate::io::{csv, own, pvd, vtu, write_atomically};
@@ -176,14 +177,23 @@ impl ResultFiles {
         let (u, time) = (&view.frame.state.u, view.frame.state.t);
         let tables: Vec<(String, csv::Table, Sheet)> = interfaces
             .map(|interface| {
-                let (names, columns) = interface.table(u);
+                let (names, columns) = look::table(interface.view(), u);
                 let table = csv::Table { names, columns };
-                (interface.name.clone(), table, interface.sheet(u, time))
+                (
+                    interface.name.clone(),
+                    table,
+                    look::sheet(interface.view(), u, time),
+                )
             })
             .collect();
         let opposite = view.contact.interfaces.iter();
         let opposite: Vec<(String, Sheet)> = opposite
-            .filter_map(|i| Some((format!("{}{OPPOSITE}", i.name), i.opposite_sheet(u)?)))
+            .filter_map(|i| {
+                Some((
+                    format!("{}{OPPOSITE}", i.name),
+                    look::opposite_sheet(i.view(), u)?,
+                ))
+            })
             .collect();
         let parts = tables.iter().map(|(name, ..)| name);
         let parts = parts.chain(opposite.iter().map(|(name, _)| name));
@@ -386,7 +396,7 @@ pub fn fields(view: &View) -> Fields {
     }
     view.turn_tensors(&mut fields);
     for interface in &view.contact.interfaces {
-        interface.fields(&mut fields);
+        look::fields(interface.view(), &mut fields);
     }
     fatigue::add_fields(view, &mut fields);
     fields

@@ -3,7 +3,8 @@
 use super::free_bodies;
 use crate::assess::view::View;
 use crate::body::Around;
-use crate::contact::interface::Resultant;
+use crate::contact::look;
+use crate::contact::look::Resultant;
 use crate::model::definition::{Reference, Support};
 use crate::model::kick::Share;
 use crate::system::{Motion, Tally};
@@ -97,7 +98,7 @@ pub(crate) fn row(
     }
     let dim = view.model.dofs.dim;
     for interface in &view.contact.interfaces {
-        let r = interface.resultant(&view.frame.state.u);
+        let r = look::resultant(interface.view(), &view.frame.state.u);
         push_resultant(&mut row, &interface.name, &r, dim);
         // Tied surfaces pull as well as they press, and do not slide.
         let (name, tied) = (&interface.name, interface.laws.tied);
@@ -106,9 +107,12 @@ pub(crate) fn row(
             r.peak,
         );
         if !tied {
-            row.push(format!("{name}.ALLFD"), interface.energy().dissipated);
+            row.push(
+                format!("{name}.ALLFD"),
+                look::energy(interface.view()).dissipated,
+            );
         }
-        if let Some(wear) = interface.wear() {
+        if let Some(wear) = look::wear(interface.view()) {
             let [own, other] = wear.depth;
             row.push(format!("{}.CWEARMAX", interface.name), own.max(other));
             let volume = wear.volume[0] + wear.volume[1];

@@ -6,6 +6,7 @@
 use super::history::Row;
 use crate::assess::view::View;
 use crate::contact::interface::Interface;
+use crate::contact::look;
 use crate::math::{Vec3, add_scaled, dot, norm, sub};
 use crate::model::cycling::Block;
 use crate::model::definition::{Body, Model};
@@ -125,7 +126,7 @@ pub(crate) fn follow(view: &View, shares: &[f64], loops: &mut [Loop], trial: Tri
         }
         at.go_on(view, shares, interface);
         if cycles.is_none() {
-            at.start = interface.energy().dissipated;
+            at.start = look::energy(interface.view()).dissipated;
         }
     }
     let cycles = cycles.filter(|c| c.ends(since))?;
@@ -147,7 +148,7 @@ impl Loop {
     }
 
     fn go_on(&mut self, view: &View, shares: &[f64], interface: &Interface) {
-        let force = interface.resultant(&view.frame.state.u);
+        let force = look::resultant(interface.view(), &view.frame.state.u);
         let displacement = displacement(view, shares, interface);
         // Across the resultant of the pressure: on a curved surface shear has a part along it.
         let along = dot(force.shear, force.normal) / dot(force.normal, force.normal);
@@ -160,7 +161,7 @@ impl Loop {
         self.displacement.take_in(displacement);
         self.pressed = self.pressed.max(force.total);
         self.peak = self.peak.max(force.peak);
-        let [sliding, touching] = interface.sliding_area();
+        let [sliding, touching] = look::sliding_area(interface.view());
         if touching > 0.0 {
             self.sliding = self.sliding.max(sliding / touching);
         }
@@ -175,7 +176,7 @@ fn row(view: &View, loops: &mut [Loop], t: f64, block: Block) -> Row {
     row.push("CYCLES", (block.before + block.stands_for) as f64);
     row.push("STANDS", block.stands_for as f64);
     for (interface, at) in view.contact.interfaces.iter().zip(loops) {
-        let dissipated = interface.energy().dissipated;
+        let dissipated = look::energy(interface.view()).dissipated;
         let energy = dissipated - at.start;
         at.start = dissipated;
         at.sum += energy * block.stands_for as f64;
@@ -202,7 +203,7 @@ fn row(view: &View, loops: &mut [Loop], t: f64, block: Block) -> Row {
         push("SLIDING", at.sliding);
         push("CONDITION", condition);
         push("CPRESSMAX", at.peak);
-        if let Some(wear) = interface.wear() {
+        if let Some(wear) = look::wear(interface.view()) {
             push("CWEARVOL", wear.volume[0] + wear.volume[1]);
             push("CWEARMAX", wear.depth[0].max(wear.depth[1]));
         }

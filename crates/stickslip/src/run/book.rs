@@ -1,5 +1,6 @@
 //! How an accepted increment becomes the last state, and enters the ledger.
 
+use crate::contact::look;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
@@ -62,7 +63,11 @@ pub(crate) fn ledger_after(
         thermal: model.thermal_energy(at.t, &at.u),
         ..accepted.flow
     };
-    let interfaces: Vec<_> = contact.interfaces.iter().map(|i| i.energy()).collect();
+    let interfaces: Vec<_> = contact
+        .interfaces
+        .iter()
+        .map(|i| look::energy(i.view()))
+        .collect();
     let mut ledger = frame.ledger;
     let before = ledger.of_interfaces();
     let energies = [accepted.kinetic, accepted.strain + stored];

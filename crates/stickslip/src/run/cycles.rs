@@ -15,6 +15,7 @@ use super::jumps::{Amounts, Halved, Jumps};
 use super::position::Increments;
 use super::simulation::Simulation;
 use super::trying::Trying;
+use crate::contact::look;
 use crate::error::Error;
 use crate::model::cycling::{Block, ChosenJump};
 use crate::results::observer::{Event, Observer};
@@ -43,7 +44,7 @@ impl Simulation {
     /// What sliding has taken, by interface and place.
     fn taken(&self) -> Vec<Vec<f64>> {
         let interfaces = self.contact.interfaces.iter();
-        interfaces.map(|i| i.taken()).collect()
+        interfaces.map(|i| look::taken(i.view())).collect()
     }
 
     /// Begins a block where one is to begin; the analysis stands between two increments.
@@ -286,7 +287,7 @@ impl Simulation {
     fn places(&self) -> Vec<Vec<Place>> {
         let interfaces = self.contact.interfaces.iter();
         let wearing = interfaces.map(|i| match i.wears() {
-            true => i.wear_places(),
+            true => look::wear_places(i.view()),
             false => Vec::new(),
         });
         wearing.collect()

@@ -1,5 +1,6 @@
 //! How much a run writes, as far as can be told before it.
 
+use crate::contact::look;
 use serde::Serialize;
 
 use super::simulation::{Simulation, view};
@@ -90,7 +91,8 @@ impl Simulation {
             + 4 * mesh.points.len()
             + of_mesh.sum::<usize>();
         let state = &view.frame.state;
-        let surfaces = (view.contact.interfaces.iter()).map(|i| i.sheet(&state.u, state.t));
+        let surfaces =
+            (view.contact.interfaces.iter()).map(|i| look::sheet(i.view(), &state.u, state.t));
         let surfaces = surfaces.map(|s| {
             let values = s.fields.all.iter().map(|f| f.values.len());
             // Coordinates and numbers of points, pieces of quadratic faces.

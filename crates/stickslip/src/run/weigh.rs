@@ -4,6 +4,7 @@ use super::book::ledger_after;
 use super::position::Increments;
 use super::simulation::Simulation;
 use crate::assess::quality::still_energy;
+use crate::contact::look;
 use crate::model::limits::GateMode;
 use crate::solve::accepted::Accepted;
 use crate::system::{Cause, StepFailure};
@@ -85,7 +86,7 @@ impl Simulation {
         let inverse = self.inverse_masses();
         let interfaces = self.contact.interfaces.iter();
         let squared: f64 = interfaces
-            .map(|i| i.pressed_frequency(&inverse, links))
+            .map(|i| look::pressed_frequency(i, &inverse, links))
             .sum();
         squared.sqrt() * (trial.to - trial.from) <= RESOLVED
     }

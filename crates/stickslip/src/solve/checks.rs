@@ -1,5 +1,6 @@
 //! Solutions that are refused although Newton's method has found them.
 
+use crate::contact::look;
 use crate::math::larger;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
@@ -93,7 +94,9 @@ pub(crate) fn check_way(
         return Ok(());
     }
     for interface in &contact.interfaces {
-        if let Some(deep) = interface.passes_through(ends.map(|s| &*s.u), ends.map(|s| s.t)) {
+        if let Some(deep) =
+            look::passes_through(interface.view(), ends.map(|s| &*s.u), ends.map(|s| s.t))
+        {
             let message = format!(
                 "interface `{}`: bodies overlap by {deep:.3e} on the way to what was found: an axle that nothing but contact holds has turned through what it touches",
                 interface.name

@@ -8,6 +8,7 @@ use super::solver::Solver;
 use super::work::Work;
 use crate::body::{Anchors, Hold, spread};
 use crate::contact::interface::Interface;
+use crate::contact::look;
 use crate::math::{dot, norm};
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
@@ -47,7 +48,7 @@ impl Solver {
         bodies.retain(|free| {
             let mut met = false;
             for interface in &interfaces {
-                for (point, normal) in interface.normals() {
+                for (point, normal) in look::normals(interface) {
                     if free.has(model, point) {
                         met = true;
                         resisted |= free.motions.iter().any(|(_, motion)| {
@@ -91,7 +92,7 @@ impl Solver {
         let untouched = |free: &FreeBody| {
             // A tie is no contact that holds: it joins loose bodies to each other.
             let mut all = contact.interfaces.iter().filter(|i| !i.laws.tied);
-            all.all(|i| !i.touched() || !i.nodes.iter().any(|&n| free.has(model, n)))
+            all.all(|i| !look::touched(i.view()) || !i.nodes.iter().any(|&n| free.has(model, n)))
         };
         bodies.iter().any(untouched)
     }
@@ -257,7 +258,7 @@ impl Solver {
         let interfaces = contact.interfaces.iter_mut();
         for interface in interfaces.filter(|i| i.schedule.active(trial.to)) {
             let own = match pending {
-                true => interface.initial_gaps(),
+                true => look::initial_gaps(interface.view()),
                 false => interface.gaps_at(&stage),
             };
             let own = own.into_iter().filter(|gap| gap.is_finite());

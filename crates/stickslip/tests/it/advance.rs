@@ -4,6 +4,7 @@ use crate::support;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
+use stickslip::contact::look;
 
 use stickslip::Error;
 use stickslip::assess::View;
@@ -46,7 +47,10 @@ struct Diary {
 
 /// Pressures of the interface.
 fn pressures(simulation: &View) -> Vec<f64> {
-    let table = simulation.contact.interfaces[0].table(&simulation.frame.state.u);
+    let table = look::table(
+        simulation.contact.interfaces[0].view(),
+        &simulation.frame.state.u,
+    );
     table.1[4].clone()
 }
 

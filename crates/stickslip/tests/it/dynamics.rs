@@ -1,6 +1,7 @@
 //! Motion: order of accuracy, energy, initial conditions, and what is refused.
 
 use crate::support;
+use stickslip::contact::look;
 use support::{complaint, problem, run};
 
 /// A rod of four cells, held at one end and pulled at the other at once. `SCHEME` and `STEPS` are filled in.
@@ -867,7 +868,7 @@ dynamic.scheme.hht.alpha = -0.05
         loop {
             let view = simulation.view();
             let u = &view.frame.state.u;
-            let said = view.contact.interfaces[0].resultant(u);
+            let said = look::resultant(view.contact.interfaces[0].view(), u);
             let fields = stickslip::results::fields(&view);
             let force = &fields
                 .all

@@ -4,6 +4,7 @@ use crate::support;
 use crate::support::resistance;
 use resistance::{Medium, Space, resist};
 use std::sync::Arc;
+use stickslip::contact::look;
 
 use stickslip::math::{
     Mat3, Vec3, add, identity, mat_vec, norm, rotation, scale, sub, transpose_vec,
@@ -359,7 +360,7 @@ fn contact_forces_at_nodes_are_those_that_bodies_resist() {
 /// Largest distance of |q| / p from μ over the points that slip, and how many slip.
 fn ratio(simulation: &Simulation, mu: f64) -> (f64, usize) {
     let interface = &simulation.contact.interfaces[0];
-    let (names, columns) = interface.table(&simulation.frame.state.u);
+    let (names, columns) = look::table(interface.view(), &simulation.frame.state.u);
     let column = |name: &str| {
         let k = names.iter().position(|n| n == name).expect(name);
         &columns[k]
@@ -425,7 +426,7 @@ fn what_slips_on_a_drum_or_a_ball_carries_its_limit_for_turns_of_any_size() {
             if text.contains("plane-strain") && angle >= 0.5 {
                 // All of the shear acts at the radius of the drum, across the direction to its centre.
                 let interface = &simulation.contact.interfaces[0];
-                let force = interface.resultant(&simulation.frame.state.u);
+                let force = look::resultant(interface.view(), &simulation.frame.state.u);
                 let torque = (force.moment[2] - force.shear[0] - force.normal[0]).abs();
                 assert!(
                     (torque - 0.3 * force.total).abs() < 2e-3 * torque,
@@ -774,10 +775,10 @@ step = [{{ increments.fixed = 2 }}, {{ increments.fixed = 2 }}]
         );
         let (_, simulation) = run(&support::problem(&text));
         let interface = &simulation.contact.interfaces[0];
-        let (names, columns) = interface.table(&simulation.frame.state.u);
+        let (names, columns) = look::table(interface.view(), &simulation.frame.state.u);
         let column =
             |name: &str| columns[names.iter().position(|n| n == name).expect(name)].clone();
-        let of = interface.resultant(&simulation.frame.state.u);
+        let of = look::resultant(interface.view(), &simulation.frame.state.u);
         let force = add(of.normal, of.shear);
         let place = interface.place(&interface.points[0]);
         // Counted from the top of the drum.

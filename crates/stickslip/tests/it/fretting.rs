@@ -1,6 +1,7 @@
 //! Thousands of cycles by a few that are computed: jumps that are chosen by their error, cycles that repeat, and what each of them took.
 
 use std::path::Path;
+use stickslip::contact::look;
 
 use crate::restart;
 use crate::support::{self, Row};
@@ -76,7 +77,7 @@ interface.joint = {{ secondary = "layer.top", primary = "flat.bottom", roles = "
     let mut simulation = support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
     let interface = &mut simulation.contact.interfaces[0];
     let primary = interface.primary_nodes;
-    for x in &mut interface.reference[primary..] {
+    for x in &mut interface.definition.reference[primary..] {
         x[1] += VARIES * MEAN / BED * wave(x[0]);
     }
     simulation
@@ -88,7 +89,10 @@ fn wave(x: f64) -> f64 {
 
 /// The part of the pressure along the wave, over its mean.
 fn part(simulation: &Simulation) -> f64 {
-    let (names, columns) = simulation.contact.interfaces[0].table(&simulation.frame.state.u);
+    let (names, columns) = look::table(
+        simulation.contact.interfaces[0].view(),
+        &simulation.frame.state.u,
+    );
     let column = |name: &str| &columns[names.iter().position(|n| n == name).expect("a column")];
     let mut sums = [0.0; 2];
     let rows = column("x")
@@ -333,7 +337,10 @@ fn partial_slip_wears_until_only_what_sticks_carries() {
             energy[energy.len() - 1] < 1e-2 * energy[0],
             "{size}: {energy:?}"
         );
-        let (names, columns) = simulation.contact.interfaces[0].table(&simulation.frame.state.u);
+        let (names, columns) = look::table(
+            simulation.contact.interfaces[0].view(),
+            &simulation.frame.state.u,
+        );
         let column = |name: &str| &columns[names.iter().position(|n| n == name).expect("a column")];
         let (x, pressure, force) = (column("x"), column("CPRESS"), column("CNORMF"));
         let pressed = x.iter().zip(pressure).filter(|(_, p)| **p > 0.0);
@@ -478,8 +485,8 @@ step = [{{ increments.fixed = 1 }}, {{ cycles = {{ count = 30, jump = {jump} }},
 fn worn_off(simulation: &Simulation) -> [(Vec<f64>, f64); 2] {
     let interface = &simulation.contact.interfaces[0];
     let mut sides = [(Vec::new(), 0.0), (Vec::new(), 0.0)];
-    let places = interface.wear_places();
-    for (volume, (primary, area)) in interface.taken().into_iter().zip(places) {
+    let places = look::wear_places(interface.view());
+    for (volume, (primary, area)) in look::taken(interface.view()).into_iter().zip(places) {
         let side = &mut sides[usize::from(primary)];
         side.1 += volume;
         if area > 0.0 {

@@ -4,11 +4,15 @@ use crate::fretting::{Cycles, FORCE, LOAD, MU, cylinder, hertz};
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::path::Path;
+use stickslip::contact::look;
 use stickslip::run::Simulation;
 
 /// A column of the contact.
 fn column(simulation: &Simulation, name: &str) -> Vec<f64> {
-    let (names, columns) = simulation.contact.interfaces[0].table(&simulation.frame.state.u);
+    let (names, columns) = look::table(
+        simulation.contact.interfaces[0].view(),
+        &simulation.frame.state.u,
+    );
     let found = names.into_iter().zip(columns).find(|(n, _)| n == name);
     found.unwrap_or_else(|| panic!("no column {name}")).1
 }

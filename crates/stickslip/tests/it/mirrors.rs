@@ -2,6 +2,7 @@
 
 use crate::support;
 use stickslip::Error;
+use stickslip::contact::look;
 use stickslip::results::{Analysis, Event, Observer};
 
 /// Points of the first interface at the end of the last increment, as `[x, y, z, pressure, shear, shear]`, and energies.
@@ -17,7 +18,10 @@ impl Observer for End {
         let Event::Increment(row) = event else {
             return Ok(());
         };
-        let (names, columns) = analysis.contact.interfaces[0].table(&analysis.frame.state.u);
+        let (names, columns) = look::table(
+            analysis.contact.interfaces[0].view(),
+            &analysis.frame.state.u,
+        );
         let wanted = ["x", "y", "z", "CPRESS", "CSHEAR1", "CSHEAR2"].map(|name| {
             let at = names.iter().position(|n| n == name).expect("a column");
             &columns[at]

@@ -4,6 +4,7 @@ use crate::support;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::path::Path;
+use stickslip::contact::look;
 
 use stickslip::problem::Document;
 use stickslip::run::Simulation;
@@ -187,7 +188,7 @@ fn deviation(folder: &Path, text: &str, pressure: f64, shear: Option<f64>) -> f6
     simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
     let mut worst: f64 = 0.0;
     for interface in &simulation.contact.interfaces {
-        let (names, columns) = interface.table(&simulation.frame.state.u);
+        let (names, columns) = look::table(interface.view(), &simulation.frame.state.u);
         let column = |name: &str| &columns[names.iter().position(|n| n == name).unwrap()];
         assert!(!column("CPRESS").is_empty());
         for (p, s) in column("CPRESS").iter().zip(column("CSHEAR1")) {
@@ -387,7 +388,7 @@ step = [{{ increments = {{ fixed = 2 }} }}]
     let a = f64::cbrt(0.75 * force * radius / (1e5 / (1.0 - 0.09)));
     let peak = 1.5 * force / (std::f64::consts::PI * a * a);
     let interface = &simulation.contact.interfaces[0];
-    let (names, columns) = interface.table(&simulation.frame.state.u);
+    let (names, columns) = look::table(interface.view(), &simulation.frame.state.u);
     let column = |name: &str| &columns[names.iter().position(|n| n == name).unwrap()];
     let mut worst: f64 = 0.0;
     let mut points = 0;
@@ -400,7 +401,10 @@ step = [{{ increments = {{ fixed = 2 }} }}]
     }
     assert!(points > 20, "{element}: {points}");
     assert!(simulation.summary.quality.met);
-    (worst, interface.resultant(&simulation.frame.state.u).total)
+    (
+        worst,
+        look::resultant(interface.view(), &simulation.frame.state.u).total,
+    )
 }
 
 /// Quadratic faces carry pressure on obstacles as they do on bodies: not at points within faces, whose pressures are noise.
@@ -446,7 +450,7 @@ step = [{{ increments = {{ fixed = 2 }} }}]
         let a = f64::cbrt(0.75 * 1000.0 * 10.0 / (1e5 / (1.0 - 0.09)));
         let peak = 1500.0 / (std::f64::consts::PI * a * a);
         let interface = &simulation.contact.interfaces[0];
-        let (names, columns) = interface.table(&simulation.frame.state.u);
+        let (names, columns) = look::table(interface.view(), &simulation.frame.state.u);
         let column = |name: &str| &columns[names.iter().position(|n| n == name).unwrap()];
         let mut points = 0;
         for (x, p) in column("x").iter().zip(column("CPRESS")) {
@@ -458,7 +462,7 @@ step = [{{ increments = {{ fixed = 2 }} }}]
             }
         }
         assert!(points >= 10, "{element}: {points}");
-        let force = interface.resultant(&simulation.frame.state.u).total;
+        let force = look::resultant(interface.view(), &simulation.frame.state.u).total;
         assert!((force / 1000.0 - 1.0).abs() < 1e-3, "{element}: {force}");
     }
 }
@@ -481,11 +485,11 @@ step = [{ increments.fixed = 1 }]
     simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
     let mut fields = stickslip::system::Fields::default();
     for interface in &simulation.contact.interfaces {
-        interface.fields(&mut fields);
+        look::fields(interface.view(), &mut fields);
     }
     let points = &simulation.model.mesh.points;
     for (interface, sign) in simulation.contact.interfaces.iter().zip([1.0, -1.0]) {
-        let (names, columns) = interface.table(&simulation.frame.state.u);
+        let (names, columns) = look::table(interface.view(), &simulation.frame.state.u);
         let column = |name: &str| &columns[names.iter().position(|n| n == name).unwrap()];
         let set = if sign > 0.0 {
             "upper.bottom"
@@ -557,8 +561,8 @@ quality.gate = "off"
     (simulation.run(&mut [])).unwrap_or_else(|e| panic!("{what}: {e}"));
     let interface = &simulation.contact.interfaces[0];
     let u = &simulation.frame.state.u;
-    let shear = stickslip::math::norm(interface.resultant(u).shear);
-    let b = interface.balance(u);
+    let shear = stickslip::math::norm(look::resultant(interface.view(), u).shear);
+    let b = look::balance(interface.view(), u);
     assert!(shear > 0.05 * b.scale, "{what}: {shear} of {}", b.scale);
     let [force, moment] = [b.force, b.moment].map(stickslip::math::norm);
     [force / b.scale, moment / (b.scale * b.size)]
@@ -625,7 +629,7 @@ quality.gate = "off"
             support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
         simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
         let interface = &simulation.contact.interfaces[0];
-        let r = interface.resultant(&simulation.frame.state.u);
+        let r = look::resultant(interface.view(), &simulation.frame.state.u);
         let part = if half { 2.0 } else { 1.0 };
         [r.normal[1], r.normal[2], r.shear[1], r.shear[2]].map(|f| part * f)
     };

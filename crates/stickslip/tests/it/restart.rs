@@ -3,6 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use stickslip::contact::look;
 
 use crate::support;
 use stickslip::Error;
@@ -35,7 +36,7 @@ impl Observer for Diary {
                 state.extend(bits(&frame.state.v));
                 state.extend(bits(&frame.forces));
                 for interface in &analysis.contact.interfaces {
-                    for column in interface.table(&frame.state.u).1 {
+                    for column in look::table(interface.view(), &frame.state.u).1 {
                         state.extend(bits(&column));
                     }
                 }

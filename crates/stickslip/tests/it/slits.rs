@@ -3,6 +3,7 @@
 use crate::support;
 use std::fmt::Write;
 use std::path::Path;
+use stickslip::contact::look;
 
 use stickslip::problem::{Document, Problem};
 use stickslip::run::Simulation;
@@ -153,7 +154,7 @@ fn the_faces_of_a_closed_slit_slide_as_in_an_infinite_plate() {
         let driving = STRESS * s * c - pressure / 3.0_f64.sqrt();
         let interface = &simulation.contact.interfaces[0];
         let state = &simulation.frame;
-        let sheet = interface.sheet(&state.state.u, state.state.t);
+        let sheet = look::sheet(interface.view(), &state.state.u, state.state.t);
         let field = |name: &str| {
             let found = sheet.fields.all.iter().find(|f| f.name == name);
             &found.unwrap_or_else(|| panic!("no field {name}")).values

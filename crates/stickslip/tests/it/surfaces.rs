@@ -1,6 +1,7 @@
 //! The surfaces of interfaces as files: what stands on them is what the tables and the history say.
 
 use crate::support::{build, folder, problem};
+use stickslip::contact::look;
 use stickslip::io::vtu::Grid;
 use stickslip::io::{csv, pvd, vtu};
 use stickslip::results::ResultFiles;
@@ -161,7 +162,7 @@ step = [{}]
     simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
     let interface = &simulation.contact.interfaces[0];
     let frame = &simulation.frame.state;
-    let sheet = interface.sheet(&frame.u, frame.t);
+    let sheet = look::sheet(interface.view(), &frame.u, frame.t);
     let names: Vec<&str> = sheet.fields.all.iter().map(|f| f.name.as_str()).collect();
     assert!(
         !names.iter().any(|n| n.starts_with('C') && *n != "CNORMAL"),

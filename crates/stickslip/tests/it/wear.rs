@@ -1,6 +1,7 @@
 //! What sliding leaves on both sides: dissipated energy and wear against closed forms, and fields that are uniform where they should be.
 
 use crate::support;
+use stickslip::contact::look;
 use stickslip::results::fields;
 use stickslip::run::Simulation;
 
@@ -220,7 +221,7 @@ wear.archard = {{ coefficient = {k} }}
     );
     let mut simulation = support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
     let interface = &mut simulation.contact.interfaces[0];
-    for x in &mut interface.reference {
+    for x in &mut interface.definition.reference {
         x[1] += wave(x[0]);
     }
     simulation
@@ -228,7 +229,10 @@ wear.archard = {{ coefficient = {k} }}
 
 /// Part of the pressure at the nodes along a wave: the other waves have none in common with it.
 fn part(simulation: &Simulation, wave: impl Fn(f64) -> f64) -> f64 {
-    let (names, columns) = simulation.contact.interfaces[0].table(&simulation.frame.state.u);
+    let (names, columns) = look::table(
+        simulation.contact.interfaces[0].view(),
+        &simulation.frame.state.u,
+    );
     let column = |name: &str| {
         let k = names.iter().position(|n| n == name);
         &columns[k.expect("a column")]
@@ -449,8 +453,8 @@ fn what_both_surfaces_lose_is_what_the_law_says() {
         let simulation = slides(dim, elements, more);
         let what = format!("{dim}D {elements:?} {more}");
         let interface = &simulation.contact.interfaces[0];
-        let lost = interface.wear().expect("is followed").volume;
-        for (lost, hollowed) in lost.iter().zip(interface.hollowed()) {
+        let lost = look::wear(interface.view()).expect("is followed").volume;
+        for (lost, hollowed) in lost.iter().zip(look::hollowed(interface.view())) {
             assert!(
                 (hollowed / lost - 1.0).abs() < 1e-12,
                 "{what}: {hollowed} {lost}"

@@ -1,6 +1,7 @@
 //! Wear laws against closed forms on a block whose pressure is uniform, and wear in motion.
 
 use crate::support;
+use stickslip::contact::look;
 use stickslip::run::Simulation;
 
 const PRESSURE: f64 = 40.0;
@@ -295,8 +296,8 @@ fn both_surfaces_wear_in_motion_as_they_do_at_rest() {
             let what = format!("{dynamic} {feedback}");
             let simulation = driven(dynamic, feedback);
             let interface = &simulation.contact.interfaces[0];
-            let lost = interface.wear().expect("is followed").volume;
-            for (lost, hollowed) in lost.iter().zip(interface.hollowed()) {
+            let lost = look::wear(interface.view()).expect("is followed").volume;
+            for (lost, hollowed) in lost.iter().zip(look::hollowed(interface.view())) {
                 close(hollowed, *lost, 1e-12, &what);
             }
             close(lost[0] / lost[1], 2.0, 1e-12, &what);

@@ -1,7 +1,7 @@
 //! Points that change status, as Newton's method sees them.
 
-use super::definition::Interface;
 use super::on_facet::MOST_LEFT;
+use super::parts::Interface;
 use crate::system::ActiveSet;
 
 impl ActiveSet for Interface {
@@ -27,7 +27,7 @@ impl ActiveSet for Interface {
     }
 
     fn passes_edges(&self) -> bool {
-        let evaluations = match self.unknown() && self.attempt.tentative {
+        let evaluations = match self.view().unknown() && self.attempt.tentative {
             true => &self.cache.trial,
             false => &self.cache.last,
         };

@@ -1,7 +1,7 @@
 //! Points of an interface as a friction problem knows them.
 
-use super::definition::Interface;
 use super::evaluation::{Batch, Evaluation};
+use super::parts::Interface;
 use super::scene::Wants;
 use crate::friction::PointLaw;
 use crate::math::vector::dot;
@@ -80,7 +80,7 @@ impl Interface {
 
     /// Takes the forces of a friction problem for multipliers where these are unknowns; a point without any carries nothing.
     pub(super) fn adopt_forces(&mut self, forces: &[Option<[f64; 3]>]) {
-        if !self.unknown() {
+        if !self.view().unknown() {
             return;
         }
         let points = self.cache.last.points.iter().zip(forces);

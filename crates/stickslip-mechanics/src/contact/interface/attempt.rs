@@ -8,25 +8,25 @@ use crate::math::{Vec3, dot};
 /// The course of an attempt. An attempt that is given up leaves no trace: the next one begins from the history.
 #[derive(Debug, Clone, Default)]
 pub struct Attempt {
-    pub(super) multipliers: Vec<Multiplier>,
+    pub(in crate::contact) multipliers: Vec<Multiplier>,
     /// Status changes, by point.
-    pub(super) flips: Vec<Flips>,
+    pub(in crate::contact) flips: Vec<Flips>,
     /// Points whose status changed with the last iterate.
-    pub(super) changed: usize,
+    pub(in crate::contact) changed: usize,
     /// The last evaluation, a tentative one, may become the next iterate.
-    pub(super) tentative: bool,
+    pub(in crate::contact) tentative: bool,
     /// Nothing has been in contact yet, and this is the first tangent of the attempt.
-    pub(super) never_in_contact: bool,
+    pub(in crate::contact) never_in_contact: bool,
     /// Gap that multipliers leave as it is where a point stays in contact `[m]`.
-    pub(super) accepted_gap: f64,
+    pub(in crate::contact) accepted_gap: f64,
     /// How often the stiffness of the enforcement has been raised tenfold, and the violation after the round before.
-    pub(super) tightened: u32,
-    pub(super) violation: Option<f64>,
+    pub(in crate::contact) tightened: u32,
+    pub(in crate::contact) violation: Option<f64>,
 }
 
 impl Attempt {
     /// The next one, from these histories; vectors keep their memory.
-    pub(super) fn next(self, histories: &[PointHistory], accepted_gap: f64) -> Self {
+    pub(in crate::contact) fn next(self, histories: &[PointHistory], accepted_gap: f64) -> Self {
         let Attempt {
             mut multipliers,
             mut flips,
@@ -48,7 +48,7 @@ impl Attempt {
 
 /// Multipliers of a contact point in the current attempt.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Multiplier {
+pub(in crate::contact) struct Multiplier {
     pub pressure: f64,
     pub shear: Vec3,
     /// The normal it is perpendicular to; zero where that is not known.
@@ -85,7 +85,7 @@ const RETURNS: usize = 3;
 
 /// Status changes of a point over the iterations of an attempt.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Flips {
+pub(in crate::contact) struct Flips {
     pub count: usize,
     /// How often the direction of slip was reversed, and the shear traction when it slid last.
     pub reversals: usize,

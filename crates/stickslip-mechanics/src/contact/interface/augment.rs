@@ -1,6 +1,6 @@
 //! Updates of the multipliers between equilibrium solves.
 
-use super::definition::Interface;
+use super::parts::Interface;
 use crate::contact::enforcement::Multipliers;
 use crate::contact::response::Status;
 use crate::math::{distance, larger, norm};

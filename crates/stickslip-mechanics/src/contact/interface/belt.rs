@@ -1,6 +1,7 @@
 //! How the surface of the primary moves beyond its body, and where an obstacle is.
 
-use super::definition::{Interface, Primary};
+use super::definition::Primary;
+use super::parts::Interface;
 use crate::contact::obstacle::Pose;
 use crate::math::{Vec3, add, cross, scale, sub};
 use crate::system::{Amplitude, Stage};

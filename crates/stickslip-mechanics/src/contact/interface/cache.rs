@@ -13,27 +13,27 @@ use crate::system::{Assembler, InSpace};
 #[derive(Debug, Default)]
 pub struct Cache {
     /// The last iterate; without points before there is one.
-    pub(super) last: Evaluations,
+    pub(in crate::contact) last: Evaluations,
     /// Memory for the next evaluation: what was evaluated before, or tentatively.
-    pub(super) trial: Evaluations,
+    pub(in crate::contact) trial: Evaluations,
     /// Coordinates at the last evaluation, and at the accepted state that it started from.
-    pub(super) x: Vec<Vec3>,
-    pub(super) before: Vec<Vec3>,
+    pub(in crate::contact) x: Vec<Vec3>,
+    pub(in crate::contact) before: Vec<Vec3>,
     /// The frames of bodies that turn at the last evaluation, and room to assemble what acts in space.
-    pub(super) in_space: InSpace,
-    pub(super) spatial: Assembler,
+    pub(in crate::contact) in_space: InSpace,
+    pub(in crate::contact) spatial: Assembler,
     /// Where the facets lie, and which way they look.
-    pub(super) bounds: Vec<Bounds>,
-    pub(super) anchors: Vec<Option<Anchor>>,
+    pub(in crate::contact) bounds: Vec<Bounds>,
+    pub(in crate::contact) anchors: Vec<Option<Anchor>>,
     /// Pairs of the reference configuration, for small sliding.
-    pub(super) frozen: Vec<Option<(usize, FacetPoint)>>,
-    pub(super) search: Search,
-    pub(super) faces: FaceSearch,
+    pub(in crate::contact) frozen: Vec<Option<(usize, FacetPoint)>>,
+    pub(in crate::contact) search: Search,
+    pub(in crate::contact) faces: FaceSearch,
     /// Nodes of the faces of a mortar without a multiplier, and the coordinates for which they were found.
-    pub(super) merged: Vec<Merged>,
-    pub(super) merged_at: Vec<Vec3>,
+    pub(in crate::contact) merged: Vec<Merged>,
+    pub(in crate::contact) merged_at: Vec<Vec3>,
     /// Integrals over the faces of a mortar.
-    pub(super) integrals: Vec<FaceIntegral>,
+    pub(in crate::contact) integrals: Vec<FaceIntegral>,
 }
 
 impl Clone for Cache {

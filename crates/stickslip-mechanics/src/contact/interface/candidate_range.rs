@@ -1,6 +1,8 @@
 //! Which points an interface looks at: those that may come into contact soon.
 
-use super::definition::{Interface, Primary};
+use super::candidates::{closest_of_all, update_candidates};
+use super::definition::Primary;
+use super::parts::Interface;
 use super::search::Search;
 use crate::contact::kinematics::mean_gap;
 use crate::contact::response::Status;
@@ -173,7 +175,8 @@ impl Interface {
         let gaps = self.distances_to_primary(x, range);
         let end = range.span[1];
         let gaps = gaps.into_iter().enumerate();
-        gaps.map(|(i, gap)| gap - self.offset(i, end)).collect()
+        gaps.map(|(i, gap)| gap - self.view().offset(i, end))
+            .collect()
     }
 
     fn distances_to_primary(&self, x: &[Vec3], range: CandidateRange) -> Vec<f64> {
@@ -194,8 +197,10 @@ impl Interface {
             Primary::Facets(_) => {
                 // A search of its own: what is asked here must leave no trace in what is computed.
                 let mut search = Search::default();
-                self.search(&mut search, x);
-                let found = self.closest_of_all(x, &search).into_iter().enumerate();
+                update_candidates(&self.definition, &mut search, x);
+                let found = closest_of_all(&self.definition, x, &search)
+                    .into_iter()
+                    .enumerate();
                 found
                     .map(|(i, found)| match found {
                         Ok((_, foot)) => {

@@ -1,6 +1,7 @@
 //! Laws that are exchanged between two steps.
 
-use super::definition::Interface;
+use super::energies::stored_energy;
+use super::parts::Interface;
 use crate::contact::law::friction::FrictionModel;
 use crate::contact::law::normal::NormalModel;
 
@@ -21,15 +22,15 @@ pub struct Change {
 impl Interface {
     /// Takes other laws, between two increments, in place of those of the problem or the program. The energy `[J]` by which the law now stores more is returned.
     pub fn change(&mut self, change: &Change) -> f64 {
-        let before = self.stored_energy();
+        let before = stored_energy(self.view());
         if let Some(normal) = &change.normal {
-            self.laws.normal = normal.clone();
-            self.laws.user.normal = None;
+            self.definition.laws.normal = normal.clone();
+            self.definition.laws.user.normal = None;
         }
         if let Some(friction) = &change.friction {
-            self.laws.friction = friction.clone();
-            self.laws.user.friction = None;
+            self.definition.laws.friction = friction.clone();
+            self.definition.laws.user.friction = None;
         }
-        self.stored_energy() - before
+        stored_energy(self.view()) - before
     }
 }

@@ -1,6 +1,6 @@
 //! Points whose two sides are both clamped.
 
-use super::definition::Interface;
+use super::parts::Interface;
 use crate::math::{Vec3, dot, scale};
 
 /// Part of what lies opposite that has to be free to move for a clamped point to press on it.

@@ -1,10 +1,13 @@
 //! What an accepted increment leaves behind: histories, and the energies that went through the interface on the way.
 
-use super::definition::{Interface, Primary};
+use super::cone::judge_friction;
+use super::definition::Primary;
+use super::energies::stored_energy;
 use super::evaluation::Evaluation;
 use super::history::PointHistory;
+use super::parts::Interface;
 use super::scene::Wants;
-use super::worn::path;
+use super::worn::{path, rubbed};
 use crate::contact::enforcement::Multipliers;
 use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
@@ -44,7 +47,7 @@ impl Interface {
     /// Committed history := trial, and what that adds to the energies.
     pub(super) fn accept(&mut self, stage: &Stage) {
         let active = self.schedule.active(stage.at.t);
-        self.history.cone = self.judge_friction(stage);
+        self.history.cone = judge_friction(self, stage);
         self.history.nodal = self.nodal_forces(active);
         self.trust_multipliers();
         self.push(stage);
@@ -82,7 +85,7 @@ impl Interface {
         self.leave_traces(&traces);
         self.hollow_out(&volumes);
         self.wear_ground(&volumes, stage);
-        let stored = self.stored_energy();
+        let stored = stored_energy(self.view());
         let before = std::mem::replace(&mut self.history.energy.stored, stored);
         if increment.resolved {
             // Along its path contact gave what it no longer stores, and took what friction has turned into heat.
@@ -139,7 +142,7 @@ impl Interface {
         };
         let mut belt_work = dot(sheared, increment.belt) * area;
         // Overlap that is resolved drives the surfaces apart.
-        let [before, now] = increment.times.map(|t| self.offset_at_start(i, t));
+        let [before, now] = increment.times.map(|t| self.view().offset_at_start(i, t));
         // So does what is worn off, the other way: the bodies come together as it goes.
         let [before, now] = [before - h.hollow, now - passed.history.hollow];
         belt_work += 0.5 * (h.pressure + r.traction[0]) * (now - before) * area;
@@ -212,7 +215,7 @@ impl Interface {
             false => 0.0,
         };
         let [dissipated, uncertain, excess] = self.dissipated(h, e, part, resolved);
-        let path = self.rubbed(r, e.frames.before, e.moved);
+        let path = rubbed(&self.definition, r, e.frames.before, e.moved);
         let pressed = (0.5 * (h.pressure + r.traction[0]) * path).max(0.0);
         let worn = self.wears_off(h, e, (pressed, dissipated), dt);
         let whole = self.points[i].area * self.share;
@@ -270,7 +273,7 @@ impl Interface {
             Multipliers::Augmented { .. }
         );
         let springs = match self.history.springs {
-            true if self.holds_exactly() => false,
+            true if self.view().holds_exactly() => false,
             true => self.laws.tied || self.laws.friction_law().frictional(),
             false => self.laws.needs_tangential_stiffness() && !updated,
         };

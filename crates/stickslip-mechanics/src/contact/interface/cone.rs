@@ -1,9 +1,10 @@
 //! Whether points carry what the law of friction says, judged by the tractions that are reported and by how the points have moved: nothing here knows
 //! frames, trial tractions or slip rules.
 
-use super::definition::{Interface, Primary};
+use super::definition::Primary;
 use super::evaluation::Evaluation;
 use super::history::Cone;
+use super::parts::Interface;
 use crate::contact::law::friction::FrictionPoint;
 use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, dot, norm, scale, sub};
@@ -15,128 +16,132 @@ const MOMENT: f64 = 1e-4;
 /// Slip that moves a point by less than this part of what its cell yields under the shear has no direction to speak of.
 const GIVEN: f64 = 1e-2;
 
-impl Interface {
-    /// Judges the last evaluation at the end of an increment, while the history is still that of its start. A point that slips has to carry its
-    /// limit, in the tangent plane and not along its slip, with the kinematics of the paper against it; one that sticks carries no more than its limit.
-    pub(super) fn judge_friction(&self, stage: &Stage) -> Cone {
-        let law = self.laws.friction_law();
-        let mut cone = Cone::default();
-        if !law.frictional() || self.laws.tied || !self.schedule.active(stage.at.t) {
-            return cone;
-        }
-        let points = self.cache.last.points.iter().zip(&self.history.points);
-        for (i, (e, before)) in points.enumerate() {
-            let pressure = e.response.traction[0];
-            if e.response.status == Status::Open || pressure <= 0.0 {
-                continue;
-            }
-            let shear = e.along(&e.frames.now);
-            let size = norm(shear);
-            let (moved, unsure) = self.moved_over(i, e, stage);
-            let speed = norm(moved) / stage.dt;
-            // What the speed changes is the law's, and it sees another measure of it.
-            let limit = match self.laws.user.friction {
-                Some(_) => e.response.limit,
-                None => {
-                    let limit = law.limit(&FrictionPoint {
-                        pressure,
-                        penetration: (-e.gap).max(0.0),
-                        speed,
-                        sticking: before.status != Status::Slip,
-                    });
-                    match limit.d_speed == 0.0 {
-                        true => limit.value,
-                        false => e.response.limit,
-                    }
-                }
-            };
-            cone.limit = cone.limit.max(limit);
-            let slips = e.response.status == Status::Slip;
-            let mut wrong = match slips {
-                true => (size - limit).abs(),
-                false => size - limit,
-            };
-            wrong = wrong.max(dot(shear, e.frames.normal).abs());
-            let given = (size + norm(before.shear)) * self.compliance(i, e);
-            let (apart, unsure) = (unsure, unsure + given);
-            if slips && norm(moved) > unsure {
-                let against = -dot(shear, moved) / norm(moved);
-                wrong = wrong.max(-against);
-            }
-            if slips && self.kinematics.as_dyn().triangles() {
-                // With edges of a facet as directions friction need not be against slip, which is what the spring of stick has not taken up. What is unsure
-                // may turn it by this angle.
-                let spring = match self.laws.slip.as_dyn().sticks() {
-                    true => scale(1.0 / e.tangential_stiffness, sub(shear, before.shear)),
-                    false => [0.0; 3],
-                };
-                let slid = add(moved, spring);
-                let unsure = apart + (size + norm(before.shear)) * GIVEN / self.points[i].stiffness;
-                if norm(slid) > unsure {
-                    let angle = (-dot(shear, slid) / (size * norm(slid)))
-                        .clamp(-1.0, 1.0)
-                        .acos();
-                    let turned = (unsure / norm(slid)).asin();
-                    wrong = wrong.max(size * (1.0 - (angle - turned).max(0.0).cos()));
-                }
-            }
-            cone.worst = cone.worst.max(wrong);
-        }
-        cone
+/// Judges the last evaluation at the end of an increment, while the history is still that of its start. A point that slips has to carry its
+/// limit, in the tangent plane and not along its slip, with the kinematics of the paper against it; one that sticks carries no more than its limit.
+pub(super) fn judge_friction(interface: &Interface, stage: &Stage) -> Cone {
+    let law = interface.laws.friction_law();
+    let mut cone = Cone::default();
+    if !law.frictional() || interface.laws.tied || !interface.schedule.active(stage.at.t) {
+        return cone;
     }
-
-    /// How far a point gives way under a unit of shear before it slips, and where slip has no direction to speak of `[m/Pa]`.
-    fn compliance(&self, i: usize, e: &Evaluation) -> f64 {
-        1.0 / e.tangential_stiffness + GIVEN / self.points[i].stiffness
-    }
-
-    /// How far the point has moved over the material of the primary beneath it, along the surface, belt included, and how uncertain that is. In dynamics
-    /// what its velocity at the end makes of the increment. What was apart at the start of the increment has swung towards each other as far as the
-    /// surfaces have turned on the way, and that was no slip: by less than the gap there was.
-    fn moved_over(&self, i: usize, e: &Evaluation, stage: &Stage) -> (Vec3, f64) {
-        let tangential = |v: Vec3| add_scaled(v, -dot(v, e.frames.normal), e.frames.normal);
-        if e.steady {
-            let x = self.points[i].position(&self.cache.x);
-            let way = self.steady_velocity(x, stage.at.t);
-            return (tangential(scale(-stage.dt, way)), 0.0);
+    let points = interface
+        .cache
+        .last
+        .points
+        .iter()
+        .zip(&interface.history.points);
+    for (i, (e, before)) in points.enumerate() {
+        let pressure = e.response.traction[0];
+        if e.response.status == Status::Open || pressure <= 0.0 {
+            continue;
         }
-        let dim = self.dofs.dim;
-        let (mut moved, mut own, mut apart) = ([0.0; 3], [0.0; 3], [0.0; 3]);
-        for (node, w) in self.weights_of(i) {
-            apart = add_scaled(apart, w, self.cache.before[node]);
-            if self.frames.of_point(self.nodes[node]).is_some() {
-                let way = sub(self.cache.x[node], self.cache.before[node]);
-                own = add_scaled(own, w.max(0.0), way);
-                for (c, way) in way.into_iter().enumerate().take(dim) {
-                    let dof = self.dofs.of(self.nodes[node], c);
-                    moved[c] += w * match stage.rate {
-                        Some(rate) => rate.gain[dof] * way + rate.shift[dof],
-                        None => way,
-                    };
+        let shear = e.along(&e.frames.now);
+        let size = norm(shear);
+        let (moved, unsure) = moved_over(interface, i, e, stage);
+        let speed = norm(moved) / stage.dt;
+        // What the speed changes is the law's, and it sees another measure of it.
+        let limit = match interface.laws.user.friction {
+            Some(_) => e.response.limit,
+            None => {
+                let limit = law.limit(&FrictionPoint {
+                    pressure,
+                    penetration: (-e.gap).max(0.0),
+                    speed,
+                    sticking: before.status != Status::Slip,
+                });
+                match limit.d_speed == 0.0 {
+                    true => limit.value,
+                    false => e.response.limit,
                 }
-                continue;
             }
-            for c in 0..dim {
-                let dof = self.dofs.of(self.nodes[node], c);
-                let du = stage.at.u[dof] - stage.from.u[dof];
-                own[c] += if w > 0.0 { w * du } else { 0.0 };
+        };
+        cone.limit = cone.limit.max(limit);
+        let slips = e.response.status == Status::Slip;
+        let mut wrong = match slips {
+            true => (size - limit).abs(),
+            false => size - limit,
+        };
+        wrong = wrong.max(dot(shear, e.frames.normal).abs());
+        let given = (size + norm(before.shear)) * compliance(interface, i, e);
+        let (apart, unsure) = (unsure, unsure + given);
+        if slips && norm(moved) > unsure {
+            let against = -dot(shear, moved) / norm(moved);
+            wrong = wrong.max(-against);
+        }
+        if slips && interface.kinematics.as_dyn().triangles() {
+            // With edges of a facet as directions friction need not be against slip, which is what the spring of stick has not taken up. What is unsure
+            // may turn it by this angle.
+            let spring = match interface.laws.slip.as_dyn().sticks() {
+                true => scale(1.0 / e.tangential_stiffness, sub(shear, before.shear)),
+                false => [0.0; 3],
+            };
+            let slid = add(moved, spring);
+            let unsure =
+                apart + (size + norm(before.shear)) * GIVEN / interface.points[i].stiffness;
+            if norm(slid) > unsure {
+                let angle = (-dot(shear, slid) / (size * norm(slid)))
+                    .clamp(-1.0, 1.0)
+                    .acos();
+                let turned = (unsure / norm(slid)).asin();
+                wrong = wrong.max(size * (1.0 - (angle - turned).max(0.0).cos()));
+            }
+        }
+        cone.worst = cone.worst.max(wrong);
+    }
+    cone
+}
+
+/// How far a point gives way under a unit of shear before it slips, and where slip has no direction to speak of `[m/Pa]`.
+fn compliance(interface: &Interface, i: usize, e: &Evaluation) -> f64 {
+    1.0 / e.tangential_stiffness + GIVEN / interface.points[i].stiffness
+}
+
+/// How far the point has moved over the material of the primary beneath it, along the surface, belt included, and how uncertain that is. In dynamics
+/// what its velocity at the end makes of the increment. What was apart at the start of the increment has swung towards each other as far as the
+/// surfaces have turned on the way, and that was no slip: by less than the gap there was.
+fn moved_over(interface: &Interface, i: usize, e: &Evaluation, stage: &Stage) -> (Vec3, f64) {
+    let tangential = |v: Vec3| add_scaled(v, -dot(v, e.frames.normal), e.frames.normal);
+    if e.steady {
+        let x = interface.points[i].position(&interface.cache.x);
+        let way = interface.steady_velocity(x, stage.at.t);
+        return (tangential(scale(-stage.dt, way)), 0.0);
+    }
+    let dim = interface.dofs.dim;
+    let (mut moved, mut own, mut apart) = ([0.0; 3], [0.0; 3], [0.0; 3]);
+    for (node, w) in interface.weights_of(i) {
+        apart = add_scaled(apart, w, interface.cache.before[node]);
+        if interface.frames.of_point(interface.nodes[node]).is_some() {
+            let way = sub(interface.cache.x[node], interface.cache.before[node]);
+            own = add_scaled(own, w.max(0.0), way);
+            for (c, way) in way.into_iter().enumerate().take(dim) {
+                let dof = interface.dofs.of(interface.nodes[node], c);
                 moved[c] += w * match stage.rate {
-                    Some(rate) => rate.gain[dof] * du + rate.shift[dof],
-                    None => du,
+                    Some(rate) => rate.gain[dof] * way + rate.shift[dof],
+                    None => way,
                 };
             }
+            continue;
         }
-        moved = add_scaled(moved, -stage.dt, self.belt_velocity(stage.at.t));
-        let mut unsure = dot(apart, e.frames.normal).abs();
-        if let Primary::Rigid(_, motion) = &self.primary {
-            let t = stage.at.t;
-            let [now, then] = [t, t - MOMENT * stage.dt].map(|t| motion.pose(t));
-            let x = self.points[i].position(&self.cache.x);
-            let surface = sub(x, then.outward(now.inward(x)));
-            moved = add_scaled(moved, -1.0 / MOMENT, surface);
-            // The point has seen other velocities on its way.
-            unsure = now.turned_since(&motion.pose(stage.from.t)).abs() * norm(own);
+        for c in 0..dim {
+            let dof = interface.dofs.of(interface.nodes[node], c);
+            let du = stage.at.u[dof] - stage.from.u[dof];
+            own[c] += if w > 0.0 { w * du } else { 0.0 };
+            moved[c] += w * match stage.rate {
+                Some(rate) => rate.gain[dof] * du + rate.shift[dof],
+                None => du,
+            };
         }
-        (tangential(moved), unsure)
     }
+    moved = add_scaled(moved, -stage.dt, interface.belt_velocity(stage.at.t));
+    let mut unsure = dot(apart, e.frames.normal).abs();
+    if let Primary::Rigid(_, motion) = &interface.primary {
+        let t = stage.at.t;
+        let [now, then] = [t, t - MOMENT * stage.dt].map(|t| motion.pose(t));
+        let x = interface.points[i].position(&interface.cache.x);
+        let surface = sub(x, then.outward(now.inward(x)));
+        moved = add_scaled(moved, -1.0 / MOMENT, surface);
+        // The point has seen other velocities on its way.
+        unsure = now.turned_since(&motion.pose(stage.from.t)).abs() * norm(own);
+    }
+    (tangential(moved), unsure)
 }

@@ -2,8 +2,9 @@
 
 use rayon::prelude::*;
 
-use super::definition::{Interface, Primary};
+use super::definition::Primary;
 use super::evaluation::Evaluations;
+use super::parts::Interface;
 use crate::contact::facet_point::{FACET_NODES, evaluate};
 use crate::contact::kinematics::{Convective, Kinematics, Pair};
 use crate::contact::mortar::{Face, FaceIntegral, Mortar, Piece};
@@ -183,7 +184,7 @@ impl Interface {
     /// Pressure and shear of a point at the node of a face; `None` if it carries nothing.
     fn carried(&self, evaluations: &Evaluations, point: usize) -> Option<Carried> {
         let e = evaluations.points.get(point)?;
-        let t = match self.unknown() {
+        let t = match self.view().unknown() {
             true => e.multiplier,
             false => e.response.traction,
         };

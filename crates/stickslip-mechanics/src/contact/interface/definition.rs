@@ -1,10 +1,7 @@
-//! What an interface is: its two sides, its laws, and what it knows.
+//! What an interface is: its two sides and its laws.
 
 use std::sync::Arc;
 
-use super::attempt::Attempt;
-use super::cache::Cache;
-use super::directives::Directives;
 use super::history::History;
 use super::hollows::Hollows;
 use super::initial::Initial;
@@ -14,7 +11,7 @@ use crate::contact::obstacle::{Motion, ObstacleShape};
 use crate::contact::response::Laws;
 use crate::contact::surface::{ContactPoint, Facet, Skin};
 use crate::contact::walls::Walls;
-use crate::math::{Vec3, add, sub};
+use crate::math::{Vec3, add, distance, norm, sub};
 use crate::system::{BodyFrames, Dofs, FramePose, Schedule};
 
 /// What the secondary touches.
@@ -26,9 +23,9 @@ pub enum Primary {
     Rigid(ObstacleShape, Motion),
 }
 
-/// The data of an interface. Node indices in points and facets are positions in `nodes`.
+/// What an interface is: all that the problem says of it. Node indices in points and facets are positions in `nodes`.
 #[derive(Debug, Clone)]
-pub struct Interface {
+pub struct InterfaceDefinition {
     /// Name in the problem file.
     pub name: String,
     /// Numbering of the unknowns.
@@ -85,25 +82,17 @@ pub struct Interface {
     /// Height of the real surface above the mesh at each point, towards the primary `[m]`; empty where they are the same. To first order, as of waves that are
     /// long beside their heights.
     pub relief: Vec<f64>,
-    /// What accepted increments have left; all that a checkpoint has to hold.
-    pub history: History,
-    /// The attempt at the next one.
-    pub attempt: Attempt,
-    /// How it is to act at present.
-    pub directives: Directives,
-    /// What can be made again.
-    pub cache: Cache,
 }
 
-impl Interface {
+impl InterfaceDefinition {
     /// Reference coordinates plus displacement of the nodes of the interface.
-    pub(super) fn coordinates(&self, u: &[f64]) -> Vec<Vec3> {
+    pub(in crate::contact) fn coordinates(&self, u: &[f64]) -> Vec<Vec3> {
         let mut out = Vec::new();
         self.coordinates_into(u, &mut out);
         out
     }
 
-    pub(super) fn coordinates_into(&self, u: &[f64], out: &mut Vec<Vec3>) {
+    pub(in crate::contact) fn coordinates_into(&self, u: &[f64], out: &mut Vec<Vec3>) {
         out.clear();
         let poses = self.frame_poses(u);
         let nodes = self.nodes.iter().zip(&self.reference);
@@ -117,7 +106,7 @@ impl Interface {
     }
 
     /// Displacements of the nodes in space.
-    pub(super) fn displacements(&self, u: &[f64]) -> Vec<Vec3> {
+    pub(in crate::contact) fn displacements(&self, u: &[f64]) -> Vec<Vec3> {
         let poses = self.frame_poses(u);
         let nodes = self.nodes.iter().zip(&self.reference);
         let moved = nodes.map(|(&node, &x)| {
@@ -131,7 +120,7 @@ impl Interface {
     }
 
     /// Where the frames of bodies that turn are at displacements `u`, counted like all coordinates here.
-    pub(super) fn frame_poses(&self, u: &[f64]) -> Vec<FramePose> {
+    pub(in crate::contact) fn frame_poses(&self, u: &[f64]) -> Vec<FramePose> {
         let poses = self.frames.poses(u).into_iter();
         poses.map(|pose| pose.counted_from(self.origin)).collect()
     }
@@ -142,45 +131,106 @@ impl Interface {
     }
 
     /// The facets of the primary; none of an obstacle.
-    pub(super) fn facets(&self) -> &[Facet] {
+    pub(in crate::contact) fn facets(&self) -> &[Facet] {
         match &self.primary {
             Primary::Facets(facets) => facets,
             Primary::Rigid(..) => &[],
         }
     }
 
-    /// What is subtracted from the gap of a point at time `t` `[m]`, with what was worn off at the last accepted state.
-    pub(super) fn offset(&self, i: usize, t: f64) -> f64 {
-        self.offset_at_start(i, t) - self.history.points.get(i).map_or(0.0, |h| h.hollow)
-    }
-
-    /// The same without what is worn off.
-    pub(super) fn offset_at_start(&self, i: usize, t: f64) -> f64 {
-        let relief = self.relief.get(i).copied().unwrap_or(0.0);
-        relief + self.initial.offset(&self.history.start, i, t)
-    }
-
-    /// Makes room for all points, and begins an attempt if there is none.
-    pub(super) fn ready(&mut self) {
-        self.history.fit(self.points.len());
-        if self.attempt.multipliers.len() != self.points.len() {
-            self.begin_attempt();
+    /// Whether the primary is a body, or an obstacle that does not move between these times.
+    pub fn stands(&self, from: f64, to: f64) -> bool {
+        match &self.primary {
+            Primary::Rigid(_, motion) => motion.way(from, to) == [[0.0; 3]; 2],
+            Primary::Facets(_) => true,
         }
     }
 
-    /// An attempt from the committed history.
-    pub(super) fn begin_attempt(&mut self) {
-        let accepted = self.accepted();
-        let before = std::mem::take(&mut self.attempt);
-        self.attempt = before.next(&self.history.points, accepted);
-        self.cache.last.points.clear();
+    /// How far the obstacle moves between two times where points of the secondary are `[m]`; zero without one.
+    pub fn obstacle_way(&self, from: f64, to: f64) -> f64 {
+        let Primary::Rigid(_, motion) = &self.primary else {
+            return 0.0;
+        };
+        let (first, last) = (motion.pose(from), motion.pose(to));
+        let ways = self.points.iter().map(|p| {
+            let x = p.position(&self.reference);
+            norm(sub(last.outward(first.inward(x)), x))
+        });
+        ways.fold(0.0, f64::max)
     }
 
-    /// Does something with what can be made again, which is lent out for that: the rest stays as it is.
-    pub(super) fn lend<T>(&mut self, work: impl FnOnce(&Self, &mut Cache) -> T) -> T {
-        let mut cache = std::mem::take(&mut self.cache);
-        let done = work(self, &mut cache);
-        self.cache = cache;
-        done
+    /// Where a point lies in space in the reference configuration `[m]`.
+    pub fn place(&self, point: &ContactPoint) -> Vec3 {
+        add(point.position(&self.reference), self.origin)
+    }
+
+    /// Springs that stand for the bodies at a contact point `[N/m]` and the height of the cell beneath `[m]`, mean values.
+    pub fn typical(&self) -> (f64, f64) {
+        let count = self.points.len().max(1) as f64;
+        let springs = self.points.iter().map(|p| p.stiffness * p.area);
+        let sizes = self.points.iter().map(|p| p.size);
+        (springs.sum::<f64>() / count, sizes.sum::<f64>() / count)
+    }
+
+    /// The mean length of facets `[m]`.
+    pub(in crate::contact) fn facet_size(&self) -> f64 {
+        let lengths = self.skin.iter().map(|s| {
+            let [a, b] = [0, 1].map(|k| self.reference[s.facet.nodes[k]]);
+            distance(a, b)
+        });
+        lengths.sum::<f64>() / self.skin.len() as f64
+    }
+
+    /// Factor of vectors on the secondary that makes them those on the side that the problem calls so.
+    pub(in crate::contact) fn named(&self) -> f64 {
+        if self.exchanged { -1.0 } else { 1.0 }
+    }
+
+    /// Nodes of the secondary that a point hangs on, with weights that add up to one.
+    pub(in crate::contact) fn own_weights(&self, i: usize) -> impl Iterator<Item = (usize, f64)> {
+        let p = &self.points[i];
+        p.nodes.iter().copied().zip(p.weights.iter().copied())
+    }
+
+    /// Memory that a history takes `[bytes]`. A point of a mortar is taken to meet a facet more than it has faces around it.
+    pub fn history_bytes(&self) -> usize {
+        let facet = self.facets().iter().map(|f| f.nodes.len()).max();
+        let facets: usize = match &self.mortar {
+            Some(mortar) => mortar.around.iter().map(|faces| faces.len() + 1).sum(),
+            None => self.points.len(),
+        };
+        let opposite = facets * facet.unwrap_or(0);
+        History::bytes(self.points.len(), opposite, self.nodes.len())
+    }
+
+    /// Memory that what goes into a factor takes, point by point `[bytes]`, about: its dofs twice, and a matrix over them.
+    pub fn stand_in_bytes(&self, dim: usize) -> usize {
+        let facet = self.facets().iter().map(|f| f.nodes.len()).max();
+        let facet = facet.unwrap_or(0);
+        let bytes = |nodes: usize| {
+            let dofs = dim * nodes;
+            size_of::<f64>() * (dofs * dofs + 3 * dofs)
+        };
+        match &self.mortar {
+            // A node meets a facet more than it has faces around it, and shares each of these with another node.
+            Some(mortar) => (mortar.around.iter())
+                .map(|faces| bytes((faces.len() + 1) * (facet + 1)))
+                .sum(),
+            None => self.points.len() * bytes(facet + 2),
+        }
+    }
+
+    /// Nodes of the primary, each as often as it has facets.
+    pub(in crate::contact) fn primary_nodes(&self) -> impl Iterator<Item = usize> {
+        let facets = match &self.primary {
+            Primary::Facets(facets) => facets.as_slice(),
+            Primary::Rigid(..) => &[],
+        };
+        facets.iter().flat_map(|f| f.nodes.iter().copied())
+    }
+
+    /// Whether sliding wears off one of the surfaces.
+    pub fn wears(&self) -> bool {
+        self.laws.wear.as_dyn().active()
     }
 }

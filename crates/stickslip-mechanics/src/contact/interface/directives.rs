@@ -23,17 +23,17 @@ crate::keep!(Steady {
 #[derive(Debug, Clone, Default)]
 pub struct Directives {
     /// Mass per area behind each point `[kg/m²]`; empty where it plays no part.
-    pub(super) inertia: Vec<f64>,
+    pub(in crate::contact) inertia: Vec<f64>,
     /// Tractions are means over the increment, as where masses meet what does not give way, not those at its end.
     pub impulses: bool,
     /// Points that do not take part; empty where all do.
-    pub(super) excluded: Vec<bool>,
+    pub(in crate::contact) excluded: Vec<bool>,
     /// Points within the part of the reach in which contact is expected to stay.
-    pub(super) inner: Vec<bool>,
+    pub(in crate::contact) inner: Vec<bool>,
     /// All points are pressed and stick, whatever the laws say: what they would do is asked, not what they do.
-    pub(super) all_stick: bool,
+    pub(in crate::contact) all_stick: bool,
     /// Cycles beside that at hand which it stands for: what slides wears as often as that in addition.
-    pub(super) skipped: f64,
+    pub(in crate::contact) skipped: f64,
     /// Sliding lasts; `None` where friction sees slips over increments as it does otherwise.
     pub steady: Option<Steady>,
 }

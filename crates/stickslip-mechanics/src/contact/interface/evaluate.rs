@@ -1,7 +1,8 @@
 //! Evaluation of one contact point: where it meets the primary, what the laws answer, force and tangent.
 
-use super::definition::{Interface, Primary};
+use super::definition::Primary;
 use super::evaluation::{Batch, Evaluation};
+use super::parts::Interface;
 use super::scene::Scene;
 use crate::contact::pairing::Anchor;
 

@@ -7,11 +7,11 @@ use crate::math::{Vec3, add_scaled, dot, scale};
 use crate::system::Tangent;
 
 /// Contact points evaluated by one task. Fixed, so that no number depends on how many threads there are.
-pub(super) const CHUNK: usize = 16;
+pub(in crate::contact) const CHUNK: usize = 16;
 
 /// An evaluation of all points.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Evaluations {
+pub(in crate::contact) struct Evaluations {
     pub points: Vec<Evaluation>,
     pub batches: Vec<Batch>,
 }
@@ -79,7 +79,7 @@ impl Evaluations {
 
 /// What an evaluation of a point leaves for the length of an explicit increment after it.
 #[derive(Debug, Clone)]
-pub(super) struct Trace {
+pub(in crate::contact) struct Trace {
     /// The largest change of a traction with its own gap or slip `[Pa/m]`, and with the velocity along it `[Pa s/m]`.
     slope: f64,
     viscosity: f64,
@@ -97,7 +97,7 @@ crate::keep!(Trace {
 
 /// What a law is asked at a point.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Question {
+pub(in crate::contact) struct Question {
     pub point: usize,
     pub gap: f64,
     pub friction: FrictionPoint,
@@ -105,7 +105,7 @@ pub(super) struct Question {
 
 /// The outcome at one point. What has a size of its own lies in a [`Batch`].
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Evaluation {
+pub(in crate::contact) struct Evaluation {
     pub slots: Slots,
     pub response: Response,
     /// Where multipliers are unknowns: the residual of their rows, and after a tangent evaluation `K_ll⁻¹` times that.
@@ -143,7 +143,7 @@ pub(super) struct Evaluation {
 
 /// Where the numbers of a point lie in its [`Batch`].
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Slots {
+pub(in crate::contact) struct Slots {
     /// Number of dofs, zero where there is no force, and where they start.
     pub n: usize,
     pub dofs: usize,
@@ -159,7 +159,7 @@ pub(super) struct Slots {
 
 /// Directions at a point.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Frames {
+pub(in crate::contact) struct Frames {
     pub normal: Vec3,
     /// Directions of the shear traction now, and at the last accepted state, in which multipliers are kept.
     pub now: [Vec3; 2],
@@ -186,7 +186,7 @@ impl Evaluation {
 
 /// Numbers of the points of one chunk, one point after the other, and room to work in. The memory is used again by the next evaluation.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Batch {
+pub(in crate::contact) struct Batch {
     pub dofs: Vec<usize>,
     /// Nodes and their weights in gap and slip: positive on the secondary, negative on the primary.
     pub sides: Vec<(usize, f64)>,
@@ -251,7 +251,7 @@ impl Batch {
 }
 
 /// Components `c` with `v ≈ c₁ e₁ + c₂ e₂`, for directions that need not be orthogonal.
-pub(super) fn components(v: Vec3, e: &[Vec3; 2], dim: usize) -> [f64; 2] {
+pub(in crate::contact) fn components(v: Vec3, e: &[Vec3; 2], dim: usize) -> [f64; 2] {
     let g11 = dot(e[0], e[0]);
     let b1 = dot(v, e[0]);
     if dim == 2 {

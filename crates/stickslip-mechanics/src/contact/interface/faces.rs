@@ -3,8 +3,9 @@
 use rayon::prelude::*;
 
 use super::cache::Cache;
-use super::definition::{Interface, Primary};
+use super::definition::Primary;
 use super::initial::GLUE;
+use super::parts::Interface;
 use crate::contact::kinematics::{Part, of_points};
 use crate::contact::mortar::{
     FACE_NODES, FaceIntegral, Merged, Scratch, Sides, correct, integrate, merged,

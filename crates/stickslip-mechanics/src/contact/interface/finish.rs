@@ -1,7 +1,7 @@
 //! Residual and tangent of a point from its stencil and what the laws answered.
 
-use super::definition::Interface;
 use super::evaluation::{Batch, Evaluation};
+use super::parts::Interface;
 use super::scene::Scene;
 use super::surrogate::{gain, surrogate};
 use crate::contact::enforcement::{condensed_slope, inverse_of_rows, residual};
@@ -19,7 +19,7 @@ impl Interface {
         e: &mut Evaluation,
         batch: &mut Batch,
     ) -> Option<[f64; 3]> {
-        if self.holds_exactly() {
+        if self.view().holds_exactly() {
             // What it carries follows from how all else accelerates.
             e.response.traction = [0.0; 3];
             e.response.d_gap = [[0.0; 3]; 3];
@@ -27,7 +27,7 @@ impl Interface {
             add_rows(e, &[[0.0; 3]; 3], [0.0; 3], batch);
             return None;
         }
-        let unknown = self.unknown() && !scene.wants.initial;
+        let unknown = self.view().unknown() && !scene.wants.initial;
         let r = &e.response;
         let traction = if unknown { e.multiplier } else { r.traction };
         if traction == [0.0; 3] && r.traction == [0.0; 3] && r.d_gap == [[0.0; 3]; 3] {

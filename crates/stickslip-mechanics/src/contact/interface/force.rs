@@ -1,8 +1,10 @@
 //! The interface as Newton's method sees it: the only place that scatters contact into residual and tangent.
 
-use super::definition::Interface;
+use super::candidates::{pair_reference, update_candidates};
 use super::evaluation::Evaluations;
+use super::parts::Interface;
 use super::scene::Wants;
+use super::symptoms::culprits;
 use crate::contact::response::Status;
 use crate::math::{add_scaled, larger, scale};
 use crate::system::{
@@ -15,10 +17,10 @@ impl Force for Interface {
         self.ready();
         self.glue(stage);
         self.lend(|interface, cache| {
-            interface.pair_reference(cache);
+            pair_reference(interface, cache);
             if interface.mortar.is_none() && !interface.kinematics.as_dyn().frozen() {
                 interface.coordinates_into(&stage.at.u, &mut cache.x);
-                interface.search(&mut cache.search, &cache.x);
+                update_candidates(interface, &mut cache.search, &cache.x);
             }
         });
     }
@@ -48,7 +50,7 @@ impl Force for Interface {
 
     fn settle(&mut self) {
         if std::mem::take(&mut self.attempt.tentative) {
-            if self.unknown() {
+            if self.view().unknown() {
                 std::mem::swap(&mut self.cache.last, &mut self.cache.trial);
             }
             self.record();
@@ -56,7 +58,7 @@ impl Force for Interface {
     }
 
     fn update_internal(&mut self, du: &[f64], step: f64) {
-        if !self.unknown() {
+        if !self.view().unknown() {
             return;
         }
         let last = &self.cache.last;
@@ -115,7 +117,7 @@ impl Force for Interface {
     }
 
     fn diagnose(&self) -> Vec<Culprit> {
-        self.culprits()
+        culprits(self)
     }
 
     fn place(&self, point: usize) -> Option<Culprit> {
@@ -193,7 +195,7 @@ impl Interface {
         let pending = out.wants_tangent && out.tentative;
         self.attempt.tentative = pending;
         // The multiplier rows of the last iterate are needed until the step has been taken.
-        if self.unknown() && (pending || !out.wants_tangent) {
+        if self.view().unknown() && (pending || !out.wants_tangent) {
             for (kept, e) in (self.cache.last.points.iter_mut()).zip(&evaluations.points) {
                 kept.response = e.response;
                 kept.gap = e.gap;
@@ -238,7 +240,7 @@ impl Interface {
 
     /// Makes the last evaluation the iterate from which Newton's method steps.
     fn record(&mut self) {
-        let unknown = self.unknown();
+        let unknown = self.view().unknown();
         let attempt = &mut self.attempt;
         let last = &self.cache.last.points;
         attempt.never_in_contact = false;
@@ -257,13 +259,5 @@ impl Interface {
                 m.frame_normal = e.frames.normal_before;
             }
         }
-    }
-
-    /// How many points have another status in the present attempt than at the last accepted state.
-    pub fn switched(&self) -> usize {
-        let points = self.history.points.iter().zip(&self.cache.last.points);
-        points
-            .filter(|(h, e)| h.status != e.response.status)
-            .count()
     }
 }

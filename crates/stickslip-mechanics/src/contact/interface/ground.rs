@@ -22,9 +22,9 @@ const PLANE: f64 = 1.0 - 1e-6;
 /// Where the depth of such a primary is kept, and what of it lies beneath each point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ground {
-    pub(super) chart: Chart,
+    pub(in crate::contact) chart: Chart,
     /// Extent out of the plane, and by how much it grows with the radius.
-    pub(super) extent: [f64; 2],
+    pub(in crate::contact) extent: [f64; 2],
     /// Places of the secondary by point.
     samples: Vec<Vec<Sample>>,
 }
@@ -38,7 +38,7 @@ struct Sample {
 
 /// The depths of a ground.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Depths {
+pub(in crate::contact) struct Depths {
     /// By place `[m]`.
     pub places: BTreeMap<Place, f64>,
     /// What each point has taken `[m³]`; empty before one has.
@@ -54,7 +54,7 @@ crate::keep!(Depths {
 });
 
 /// Where the matter of a primary is: the frame of an obstacle, and by how much it has moved in it since it was meshed.
-pub(super) struct Under {
+pub(in crate::contact) struct Under {
     pub pose: Option<Pose>,
     pub moved: Vec3,
 }
@@ -217,7 +217,7 @@ impl Ground {
     }
 
     /// The places beneath a point, with weights that add up to one.
-    pub(super) fn beneath<'a>(
+    pub(in crate::contact) fn beneath<'a>(
         &'a self,
         i: usize,
         x: &'a [Vec3],

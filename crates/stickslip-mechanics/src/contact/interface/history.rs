@@ -9,38 +9,38 @@ use crate::system::Energy;
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct History {
     /// By contact point; empty before there was anything.
-    pub(super) points: Vec<PointHistory>,
+    pub(in crate::contact) points: Vec<PointHistory>,
     /// Whether the points are those of an evaluation: not before the first commit, nor while the interface does not act.
-    pub(super) acting: bool,
+    pub(in crate::contact) acting: bool,
     /// Where points lay over the primary.
-    pub(super) opposite: Opposite,
+    pub(in crate::contact) opposite: Opposite,
     /// What was found when the interface began to act.
-    pub(super) start: Origin,
+    pub(in crate::contact) start: Origin,
     /// Springs act in place of multipliers, as explicit dynamics has it.
-    pub(super) springs: bool,
+    pub(in crate::contact) springs: bool,
     /// Gaps at which springs that replace multipliers carry nothing `[m]`; empty where all of them are zero.
-    pub(super) rest: Vec<f64>,
+    pub(in crate::contact) rest: Vec<f64>,
     /// Energies, of which all but the stored one add up over increments.
-    pub(super) energy: Energy,
+    pub(in crate::contact) energy: Energy,
     /// Volume that the side with the points and the other have lost `[m³]`.
-    pub(super) worn: [f64; 2],
+    pub(in crate::contact) worn: [f64; 2],
     /// Forces on the nodes `[N]`; empty before there was an accepted state.
-    pub(super) nodal: Vec<Vec3>,
+    pub(in crate::contact) nodal: Vec<Vec3>,
     /// Dissipated energy per area and worn depth at the nodes of the primary, by node; empty before anything slid.
-    pub(super) traces: Vec<[f64; 2]>,
+    pub(in crate::contact) traces: Vec<[f64; 2]>,
     /// Depths that are not kept at nodes.
-    pub(super) ground: Depths,
+    pub(in crate::contact) ground: Depths,
     /// Force, and moment about the centre of rotation, with which a moving obstacle pushed.
-    pub(super) pushed: [Vec3; 2],
+    pub(in crate::contact) pushed: [Vec3; 2],
     /// Largest velocity of slip below the limit over the last increment `[m/s]`.
-    pub(super) creep: f64,
+    pub(in crate::contact) creep: f64,
     /// Whether the shear is what friction says.
-    pub(super) cone: Cone,
+    pub(in crate::contact) cone: Cone,
 }
 
 /// Committed history of a contact point.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct PointHistory {
+pub(in crate::contact) struct PointHistory {
     pub pressure: f64,
     /// Shear traction on the secondary.
     pub shear: Vec3,
@@ -75,7 +75,7 @@ pub(super) struct PointHistory {
 
 /// Nodes of the primary that points lay over, with their weights there.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Opposite {
+pub(in crate::contact) struct Opposite {
     /// Where the nodes of each point end.
     ends: Vec<usize>,
     nodes: Vec<(usize, f64)>,
@@ -105,7 +105,7 @@ impl Opposite {
 
 /// The gaps from which an interface counts.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Origin {
+pub(in crate::contact) struct Origin {
     /// It has begun to act.
     pub begun: bool,
     /// The time over which overlap is resolved `[s]`.
@@ -121,7 +121,7 @@ pub(super) struct Origin {
 
 /// What is wrong with the shear of an interface after an increment, and what that is relative to.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(super) struct Cone {
+pub(in crate::contact) struct Cone {
     /// Largest amount by which the shear is not what friction says `[Pa]`.
     pub worst: f64,
     /// Largest limit `[Pa]`.
@@ -130,7 +130,7 @@ pub(super) struct Cone {
 
 impl History {
     /// Room for as many points as there are.
-    pub(super) fn fit(&mut self, points: usize) {
+    pub(in crate::contact) fn fit(&mut self, points: usize) {
         if self.points.len() != points {
             self.points = vec![PointHistory::default(); points];
         }
@@ -143,7 +143,7 @@ impl History {
 
     /// Memory that it takes `[bytes]`.
     #[cfg(test)]
-    pub(super) fn taken(&self) -> usize {
+    pub(in crate::contact) fn taken(&self) -> usize {
         size_of_val(self.points.as_slice())
             + size_of_val(self.opposite.ends.as_slice())
             + size_of_val(self.opposite.nodes.as_slice())
@@ -155,7 +155,7 @@ impl History {
     }
 
     /// Memory that it will take `[bytes]`, of an interface with so many points that lie over so many nodes of the primary in all, and so many nodes.
-    pub(super) fn bytes(points: usize, opposite: usize, nodes: usize) -> usize {
+    pub(in crate::contact) fn bytes(points: usize, opposite: usize, nodes: usize) -> usize {
         let point = size_of::<PointHistory>() + size_of::<usize>() + 3 * size_of::<f64>();
         let node = size_of::<Vec3>() + size_of::<[f64; 2]>();
         points * point + opposite * size_of::<(usize, f64)>() + nodes * node

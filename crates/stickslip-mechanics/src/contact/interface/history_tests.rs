@@ -1,8 +1,9 @@
 //! What is reported follows from the history alone, whatever has been tried since, and takes no more memory than is counted.
 
-use super::definition::Interface;
 use super::objective::{accept, all, start, tried};
+use super::view::ContactView;
 use crate::contact::law::wear::{Archard, Feedback, WearModel};
+use crate::contact::look;
 use crate::math::{Vec3, mat_vec, rotation};
 use crate::system::{Fields, State};
 
@@ -16,17 +17,19 @@ fn slid(drum: usize, angle: f64, lift: f64) -> impl Fn(usize, Vec3) -> Vec3 {
 }
 
 /// All that an interface says of itself, in words that differ when a bit does.
-fn said(interface: &Interface, state: &State) -> String {
+fn said(contact: ContactView, state: &State) -> String {
     let mut fields = Fields::default();
-    interface.fields(&mut fields);
+    look::fields(contact, &mut fields);
+    let u = &state.u;
     format!(
         "{:?}",
         (
-            (interface.quality(), interface.balance(&state.u)),
-            (interface.table(&state.u), interface.resultant(&state.u)),
-            (interface.energy(), interface.law_energy(), interface.wear()),
-            (interface.numerical_factor(), interface.resolution()),
-            interface.between(&state.u, state.t),
+            (look::quality(contact), look::balance(contact, u)),
+            (look::table(contact, u), look::resultant(contact, u)),
+            (look::energy(contact), look::law_energy(contact)),
+            (look::wear(contact), look::numerical_factor(contact)),
+            look::resolution(contact),
+            look::between(contact, u, state.t),
             fields,
         )
     )
@@ -36,26 +39,26 @@ fn said(interface: &Interface, state: &State) -> String {
 fn what_is_reported_does_not_depend_on_what_was_tried_since() {
     for dim in [2, 3] {
         for (what, mut interface) in all(dim) {
-            interface.laws.wear = WearModel::Archard(Archard {
+            interface.definition.laws.wear = WearModel::Archard(Archard {
                 coefficient: 1e-9,
                 primary_coefficient: 1e-9,
                 running_in: 0.0,
                 running_in_path: 0.0,
             });
-            interface.laws.feedback = Feedback::Implicit;
+            interface.definition.laws.feedback = Feedback::Implicit;
             let drum = interface.primary_nodes;
             let origin = start(&interface);
             let state = accept(&mut interface, &origin, slid(drum, 1e-4, 0.0));
             let state = accept(&mut interface, &state, slid(drum, 0.05, 0.0));
-            let before = said(&interface, &state);
+            let before = said(interface.view(), &state);
             let history = interface.history.clone();
             tried(&mut interface, &state, slid(drum, 0.3, 0.002));
-            assert_eq!(said(&interface, &state), before, "{what}");
+            assert_eq!(said(interface.view(), &state), before, "{what}");
             assert_eq!(interface.history, history, "{what}");
             // The history is all there is to it.
             let mut other = interface.clone();
             other.history = history;
-            assert_eq!(said(&other, &state), before, "{what}");
+            assert_eq!(said(other.view(), &state), before, "{what}");
         }
     }
 }

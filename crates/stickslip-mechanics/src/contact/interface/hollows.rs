@@ -9,11 +9,11 @@ use crate::math::Vec3;
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Hollows {
     /// Area of each node `[m²]`, zero of those between corners; empty where nothing wears.
-    pub(super) area: Vec<f64>,
+    pub(in crate::contact) area: Vec<f64>,
     /// The two corners whose mean a node has: twice itself of a corner.
-    pub(super) ends: Vec<[usize; 2]>,
+    pub(in crate::contact) ends: Vec<[usize; 2]>,
     /// Where the depth is kept in place of nodes: of an obstacle, and where matter goes by.
-    pub(super) ground: Option<Ground>,
+    pub(in crate::contact) ground: Option<Ground>,
 }
 
 impl Hollows {

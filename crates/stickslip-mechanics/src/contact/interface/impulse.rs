@@ -1,6 +1,6 @@
 //! Contact of masses with what does not give way: the points that are pressed, as an impact sees them.
 
-use super::definition::{Interface, Primary};
+use super::parts::Interface;
 use super::scene::Wants;
 use crate::system::Stage;
 
@@ -16,19 +16,6 @@ pub struct Pressed {
 }
 
 impl Interface {
-    /// Whether pressure is a multiplier, which has whatever size it takes to hold a mass.
-    pub fn is_hard(&self) -> bool {
-        !self.laws.tied && self.unknown() && self.laws.needs_normal_stiffness()
-    }
-
-    /// Whether the primary is a body, or an obstacle that does not move between these times.
-    pub fn stands(&self, from: f64, to: f64) -> bool {
-        match &self.primary {
-            Primary::Rigid(_, motion) => motion.way(from, to) == [[0.0; 3]; 2],
-            Primary::Facets(_) => true,
-        }
-    }
-
     /// The points that are pressed at the end of an increment that has been solved.
     pub fn pressed(&mut self, stage: &Stage) -> Vec<Pressed> {
         if !self.schedule.active(stage.at.t) {

@@ -57,7 +57,7 @@ impl Within {
 pub const CLOSE: Within = Within::Fraction(0.1);
 
 /// Gap relative to the cell beneath up to which a point counts as touching at the very start.
-pub(super) const TOUCHING: f64 = 1e-6;
+pub(in crate::contact) const TOUCHING: f64 = 1e-6;
 
 /// How near tied surfaces have to be to be glued, if nothing else is said.
 pub const GLUE: Within = Within::Fraction(0.5);
@@ -80,7 +80,7 @@ impl Initial {
     }
 
     /// What is subtracted from the gap of a point at time `t` `[m]`.
-    pub(super) fn offset(&self, origin: &Origin, i: usize, t: f64) -> f64 {
+    pub(in crate::contact) fn offset(&self, origin: &Origin, i: usize, t: f64) -> f64 {
         let Some(&offset) = origin.offset.get(i) else {
             return 0.0;
         };

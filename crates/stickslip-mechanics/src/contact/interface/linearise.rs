@@ -1,7 +1,7 @@
 //! What small motions about an accepted state meet at each contact point.
 
-use super::definition::Interface;
 use super::evaluation::{Batch, Evaluation};
+use super::parts::Interface;
 use super::scene::Wants;
 use crate::contact::enforcement::{Multipliers, condensed_slope, inverse_of_rows};
 use crate::contact::response::Status;
@@ -100,7 +100,7 @@ impl Interface {
     /// Stiffness and damping of a point `[N/m, N s/m]`.
     fn parts(&self, i: usize, e: &Evaluation, (slid, dt): (bool, f64)) -> (Mat3, Mat3) {
         let r = &e.response;
-        let d = match self.unknown() {
+        let d = match self.view().unknown() {
             true => condensed_slope(&inverse_of_rows(&r.d_multiplier), &r.d_gap),
             false => r.d_gap,
         };

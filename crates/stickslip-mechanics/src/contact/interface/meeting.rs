@@ -1,11 +1,12 @@
 //! How far a motion of whole bodies may go until the surfaces of an interface touch.
 
-use super::definition::{Interface, Primary};
+use super::candidates::{closest_of_all, update_candidates};
+use super::definition::Primary;
 use super::initial::TOUCHING;
+use super::parts::Interface;
 use crate::contact::kinematics::mean_gap;
-use crate::contact::response::Status;
-use crate::contact::surface::{ContactPoint, Facet, triangulate};
-use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
+use crate::contact::surface::{Facet, triangulate};
+use crate::math::{Vec3, add, add_scaled, cross, dot, norm, sub};
 
 /// Where two surfaces meet along a motion.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -54,60 +55,6 @@ impl Interface {
         }
     }
 
-    /// Whether any point is in contact at the last accepted state.
-    pub fn touched(&self) -> bool {
-        let committed = self.history.points.iter();
-        committed.into_iter().any(|h| h.status != Status::Open)
-    }
-
-    /// Whether any point is in contact at the last accepted state, and remembers by friction what it was on.
-    pub fn rubs(&self) -> bool {
-        !self.laws.tied && self.laws.friction_law().frictional() && self.touched()
-    }
-
-    /// How far the obstacle moves between two times where points of the secondary are `[m]`; zero without one.
-    pub fn obstacle_way(&self, from: f64, to: f64) -> f64 {
-        let Primary::Rigid(_, motion) = &self.primary else {
-            return 0.0;
-        };
-        let (first, last) = (motion.pose(from), motion.pose(to));
-        let ways = self.points.iter().map(|p| {
-            let x = p.position(&self.reference);
-            norm(sub(last.outward(first.inward(x)), x))
-        });
-        ways.fold(0.0, f64::max)
-    }
-
-    /// Where a point lies in space in the reference configuration `[m]`.
-    pub fn place(&self, point: &ContactPoint) -> Vec3 {
-        add(point.position(&self.reference), self.origin)
-    }
-
-    /// Points of the mesh and outward normals of both surfaces there, facet by facet of the primary.
-    pub fn normals(&self) -> Vec<(usize, Vec3)> {
-        let mut out = Vec::new();
-        for point in &self.points {
-            out.extend(point.nodes.iter().map(|&n| (self.nodes[n], point.normal)));
-        }
-        if let Primary::Facets(facets) = &self.primary {
-            for piece in triangulate(facets.clone()) {
-                let x: Vec<Vec3> = piece.nodes.iter().map(|&n| self.reference[n]).collect();
-                let normal = outward(&x);
-                let normal = scale(1.0 / norm(normal).max(f64::MIN_POSITIVE), normal);
-                out.extend(piece.nodes.iter().map(|&n| (self.nodes[n], normal)));
-            }
-        }
-        out
-    }
-
-    /// Springs that stand for the bodies at a contact point `[N/m]` and the height of the cell beneath `[m]`, mean values.
-    pub fn typical(&self) -> (f64, f64) {
-        let count = self.points.len().max(1) as f64;
-        let springs = self.points.iter().map(|p| p.stiffness * p.area);
-        let sizes = self.points.iter().map(|p| p.size);
-        (springs.sum::<f64>() / count, sizes.sum::<f64>() / count)
-    }
-
     fn meeting_obstacle(&self, x: &[Vec3], speeds: &[Vec3], largest: f64, t: f64) -> Meeting {
         let mut meeting = Meeting {
             way: f64::INFINITY,
@@ -127,7 +74,7 @@ impl Interface {
                 continue;
             }
             let gap = mean_gap(shape.as_dyn(), &pose, point, x).unwrap_or(foot.gap);
-            let gap = gap - self.offset(i, t);
+            let gap = gap - self.view().offset(i, t);
             if gap <= CLOSE * TOUCHING * point.size {
                 meeting.touching.push((self.nodes[point.nodes[0]], None));
                 continue;
@@ -163,7 +110,7 @@ impl Interface {
         // Surfaces that have entered each other by part of a cell have not passed each other.
         let entered = self.points.iter().map(|p| p.size).fold(0.0, f64::max);
         // What counts as no gap.
-        let offsets = (0..self.points.len()).map(|i| self.offset(i, t));
+        let offsets = (0..self.points.len()).map(|i| self.view().offset(i, t));
         let closed = offsets.fold(0.0, f64::max);
         let (mut entry, mut exit) = (0.0_f64, f64::INFINITY);
         for c in 0..self.dofs.dim {
@@ -193,16 +140,16 @@ impl Interface {
             touching: Vec::new(),
         };
         let mut search = std::mem::take(&mut self.cache.search);
-        self.search(&mut search, x);
+        update_candidates(&self.definition, &mut search, x);
         self.cache.search = search;
         let search = &self.cache.search;
-        let feet = self.closest_of_all(x, search);
+        let feet = closest_of_all(&self.definition, x, search);
         let facets = self.facets();
         let margin = search.margin;
         let stride = STRIDE * margin / (2.0 * largest);
         for (i, point) in self.points.iter().enumerate() {
             let (position, v) = (point.position(x), point.position(speeds));
-            let offset = self.offset(i, t);
+            let offset = self.view().offset(i, t);
             let foot = feet[i].as_ref().ok();
             let foot = foot.map(|&(f, ref foot)| {
                 let nodes = facets[f].nodes.iter().zip(&foot.n);
@@ -248,7 +195,7 @@ impl Interface {
 }
 
 /// Not normalised: out of a straight edge or a triangle.
-fn outward(x: &[Vec3]) -> Vec3 {
+pub(in crate::contact) fn facet_normal(x: &[Vec3]) -> Vec3 {
     let along = sub(x[1], x[0]);
     match x.get(2) {
         Some(&third) => cross(along, sub(third, x[0])),
@@ -270,7 +217,7 @@ fn along_ray(
     let mut way = f64::INFINITY;
     for piece in triangulate(vec![facet.clone()]) {
         let corners: Vec<Vec3> = piece.nodes.iter().map(|&n| x[n]).collect();
-        let normal = outward(&corners);
+        let normal = facet_normal(&corners);
         let size = norm(normal);
         let closing = -dot(v, normal) / size;
         if closing.is_nan() || closing <= SLIDING * largest {

@@ -2,9 +2,11 @@
 
 use super::attempt::Attempt;
 use super::cache::Cache;
-use super::definition::{Interface, Primary};
+use super::candidates::{pair_reference, update_candidates};
+use super::definition::Primary;
 use super::directives::Directives;
 use super::evaluation::{Evaluations, Trace};
+use super::parts::Interface;
 use crate::contact::mortar::Merged;
 use crate::math::Vec3;
 
@@ -74,12 +76,12 @@ impl Interface {
         self.cache.last = Evaluations::of_traces(last);
         self.lend(|interface, cache| {
             if paired {
-                interface.pair_reference(cache);
+                pair_reference(interface, cache);
                 interface.integrate(cache, false);
             }
             if cache.search.at() != searched.as_slice() {
                 cache.search = super::search::Search::default();
-                interface.search(&mut cache.search, &searched);
+                update_candidates(interface, &mut cache.search, &searched);
             }
             // The weights of a mortar's points are those of the last evaluation.
             if interface.mortar.is_some() && !paired && evaluated {

@@ -1,83 +1,70 @@
-//! The interface as a force, and what it says of itself.
+//! The interface as a force.
 //!
-//! What it is ([`Interface`]) is apart from what it knows: the [`History`] that commits write, the [`Attempt`] at the next increment, the
+//! What it is ([`InterfaceDefinition`]) is apart from what it knows: the [`History`] that commits write, the [`Attempt`] at the next increment, the
 //! [`Directives`] of the solver, and the [`Cache`] of what can be made again. An evaluation reads the history and never writes it.
 
 mod active_set;
 mod alone;
 mod attempt;
 mod augment;
+mod axles;
 mod beginning;
 mod belt;
-mod between;
 mod cache;
 mod candidate_range;
-mod candidates;
+pub(super) mod candidates;
 mod change;
 mod clamped;
 mod commit;
-mod cone;
+pub(super) mod cone;
 mod curvature;
-mod definition;
+pub(super) mod definition;
 mod directives;
-mod energies;
+pub(super) mod energies;
 mod evaluate;
-mod evaluation;
+pub(super) mod evaluation;
 mod faces;
-mod fields;
 mod finish;
 mod force;
-mod ground;
-mod history;
+pub(super) mod ground;
+pub(super) mod history;
 mod hollows;
 mod impulse;
-mod initial;
+pub(super) mod initial;
 mod linearise;
-mod meeting;
+pub(super) mod meeting;
 mod memory;
 mod on_facet;
 mod on_ground;
 mod on_mortar;
 mod on_obstacle;
 mod onset;
-mod opposite_sheet;
-mod oscillation;
+mod parts;
 mod pass;
-mod passing;
-mod pressing;
-mod quality;
-mod resolution;
 mod respond;
-mod resultant;
-mod scar;
 mod scene;
-mod search;
-mod sheet;
+pub(super) mod search;
 mod sides;
-mod spacing;
 mod springs;
 mod stiffness;
 mod surrogate;
-mod symptoms;
-mod table;
-mod turned;
+pub(super) mod symptoms;
 mod user_laws;
-mod values;
-mod worn;
+pub(super) mod view;
+pub(super) mod worn;
 
 #[cfg(test)]
 mod history_tests;
 #[cfg(test)]
 mod objective;
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 
 pub use attempt::Attempt;
-pub use between::Between;
 pub use cache::Cache;
 pub use candidate_range::CandidateRange;
 pub use change::Change;
-pub use definition::{Interface, Primary};
+pub use definition::{InterfaceDefinition, Primary};
 pub use directives::{Directives, Steady};
 pub use ground::{Above, Ground};
 pub use history::History;
@@ -88,12 +75,5 @@ pub use linearise::LinearPoint;
 pub use meeting::Meeting;
 pub use memory::Memory;
 pub use onset::Tried;
-pub use oscillation::neighbours;
-pub use pressing::Pressing;
-pub use quality::{Balance, Quality};
-pub use resolution::Resolution;
-pub use resultant::Resultant;
-pub use scar::Scar;
-pub use sheet::Sheet;
-pub use sides::WearReport;
-pub use springs::TieRow;
+pub use parts::Interface;
+pub use view::ContactView;

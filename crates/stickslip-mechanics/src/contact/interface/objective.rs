@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::definition::{Interface, Primary};
+use super::definition::{InterfaceDefinition, Primary};
 use super::history::PointHistory;
-use super::{Attempt, Cache, Directives, History, Hollows, Initial};
+use super::parts::Interface;
+use super::{Hollows, Initial};
 use crate::contact::enforcement::{EnforcementModel, Penalty};
 use crate::contact::kinematics::{KinematicsModel, Pop1995, SmallSliding};
 use crate::contact::law::friction::{Coulomb, FrictionModel};
@@ -174,7 +175,7 @@ fn drum(
     });
     let mortar = mortar.then(|| Mortar::new(faces.collect(), points.len()));
     let hollows = Hollows::new(&facets, &reference, |_| 1.0);
-    Interface {
+    Interface::new(InterfaceDefinition {
         name: "shoe".into(),
         dofs: Dofs {
             dim,
@@ -209,11 +210,7 @@ fn drum(
         origin: [0.0; 3],
         initial: Initial::default(),
         relief: Vec::new(),
-        history: History::default(),
-        attempt: Attempt::default(),
-        directives: Directives::default(),
-        cache: Cache::default(),
-    }
+    })
 }
 
 /// Accepts an increment that ends where `place` puts the points of the reference.
@@ -307,7 +304,7 @@ fn a_pair_that_turns_together_keeps_its_traction() {
             // Surfaces that count from where they are not: one of them is rough.
             for (angle, height) in [(0.01, 0.0), (0.3, 0.0), (1.0, 0.0), (0.3, 1e-4)] {
                 let mut interface = pressed.clone();
-                interface.relief = vec![height; interface.points.len()];
+                interface.definition.relief = vec![height; interface.points.len()];
                 let origin = start(&interface);
                 let drum = interface.primary_nodes;
                 // pressed and sheared, within the limit at most points

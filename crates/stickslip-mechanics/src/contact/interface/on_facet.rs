@@ -1,8 +1,9 @@
 //! A contact point over a facet.
 
-use super::definition::Interface;
+use super::candidates::closest;
 use super::evaluate::Met;
 use super::evaluation::{Batch, Evaluation, Evaluations};
+use super::parts::Interface;
 use super::scene::Scene;
 use crate::contact::facet_point::{FACET_NODES, FacetPoint, evaluate};
 use crate::contact::kinematics::Pair;
@@ -108,7 +109,7 @@ impl Interface {
     ) -> Option<Vec<f64>> {
         let (point, cache) = (&self.points[i], &self.cache);
         let e = evaluations.points.get(i)?;
-        let traction = if self.unknown() {
+        let traction = if self.view().unknown() {
             e.multiplier
         } else {
             e.response.traction
@@ -167,7 +168,7 @@ impl Interface {
             let held = self.attempt.flips[i].goes_to_and_fro();
             let previous = Previous { facet, near, held };
             let places = (&*cache.x, &*cache.before, &*cache.bounds);
-            self.closest(i, places, &cache.search, previous)
+            closest(&self.definition, i, places, &cache.search, previous)
         };
         match found {
             // At an outer edge there may be no solution with the point on it and none with it off: after the second time it stays

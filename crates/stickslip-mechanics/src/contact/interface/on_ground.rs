@@ -2,8 +2,9 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::definition::{Interface, Primary};
+use super::definition::Primary;
 use super::ground::{Ground, Under};
+use super::parts::Interface;
 use super::scene::Scene;
 use crate::contact::obstacle::{Place, Pose};
 use crate::math::{Vec3, add, add_scaled, norm, scale, sub};
@@ -56,7 +57,7 @@ impl Interface {
 
     /// Takes from the ground what points have worn off it over an increment, along their ways.
     pub(super) fn wear_ground(&mut self, volumes: &[f64], stage: &Stage) {
-        let Some(ground) = self.hollows.ground.take() else {
+        let Some(ground) = self.definition.hollows.ground.take() else {
             return;
         };
         let ways = self.cache.last.points.iter().zip(volumes);
@@ -93,7 +94,7 @@ impl Interface {
         }
         depths.felt = felt;
         self.show_ground(&ground, stage.at.t);
-        self.hollows.ground = Some(ground);
+        self.definition.hollows.ground = Some(ground);
     }
 
     /// What lies open beneath each point at the end of an increment in which the ground `gained` depths, over what the point has taken per area: one where it stays on its track, little where
@@ -146,38 +147,9 @@ impl Interface {
             .map(depth)
             .collect();
         let traces = &mut self.history.traces;
-        traces.resize(self.nodes.len(), [0.0; 2]);
+        traces.resize(self.definition.nodes.len(), [0.0; 2]);
         for (trace, depth) in traces.iter_mut().zip(shown) {
             trace[1] = depth;
         }
-    }
-
-    /// What the ground has lost: its largest depth `[m]` and the volume that the depths make up `[m³]`; `None` where there is none.
-    pub(super) fn ground_lost(&self) -> Option<[f64; 2]> {
-        let ground = self.hollows.ground.as_ref()?;
-        let places = self.history.ground.places.iter();
-        Some(
-            places.fold([0.0, 0.0], |[deepest, volume], (place, depth)| {
-                let area = ground.chart.area(*place, ground.extent);
-                [f64::max(deepest, *depth), volume + depth * area]
-            }),
-        )
-    }
-
-    /// The steepest slope of the ground, and its largest depth times its curvature, as it was made.
-    pub(super) fn ground_scar(&self) -> [f64; 2] {
-        let Some(ground) = &self.hollows.ground else {
-            return [0.0; 2];
-        };
-        let places = &self.history.ground.places;
-        let mut worst = [0.0_f64; 2];
-        for (&place, depth) in places {
-            worst[1] = worst[1].max(depth * ground.chart.curvature());
-            for (next, way) in ground.chart.next(place) {
-                let other = places.get(&next).filter(|_| way > 0.0);
-                worst[0] = other.map_or(worst[0], |o| worst[0].max((depth - o).abs() / way));
-            }
-        }
-        worst
     }
 }

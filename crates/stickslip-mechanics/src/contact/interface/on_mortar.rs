@@ -1,8 +1,9 @@
 //! A contact point of a mortar.
 
-use super::definition::{Interface, Primary};
+use super::definition::Primary;
 use super::evaluate::Met;
 use super::evaluation::{Batch, Evaluation};
+use super::parts::Interface;
 use super::scene::Scene;
 use crate::contact::kinematics::{Carried, MeanPoint, gather, rotation_of};
 use crate::math::{Mat3, identity, norm};

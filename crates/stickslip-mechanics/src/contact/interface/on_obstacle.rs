@@ -1,9 +1,9 @@
 //! A contact point over an obstacle.
 
-use super::definition::Interface;
 use super::evaluate::Met;
 use super::evaluation::{Batch, Evaluation};
 use super::initial::TOUCHING;
+use super::parts::Interface;
 use super::scene::Scene;
 use crate::contact::kinematics::{
     Part, RigidFoot, add_average_hessian, add_rigid_hessian, arriving_slip, average, rigid_stencil,

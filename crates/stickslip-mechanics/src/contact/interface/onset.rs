@@ -1,8 +1,9 @@
 //! What acts in the first instant of a motion.
 
-use super::definition::Interface;
+use super::energies::initial_energy;
 use super::evaluation::Evaluations;
 use super::initial::TOUCHING;
+use super::parts::Interface;
 use super::scene::Wants;
 use crate::contact::response::Status;
 use crate::math::Vec3;
@@ -23,7 +24,7 @@ impl Interface {
             return Ok(0.0);
         }
         let evaluations = self.evaluate_initial(stage);
-        if self.unknown() && self.laws.needs_normal_stiffness() {
+        if self.view().unknown() && self.laws.needs_normal_stiffness() {
             let points = evaluations.points.iter();
             let overlap = points.map(|e| if e.over { e.gap.min(0.0) } else { 0.0 });
             self.history.start.overlap = match self.history.acting {
@@ -41,7 +42,7 @@ impl Interface {
             }
         }
         self.cache.trial = evaluations;
-        let stored = self.initial_energy();
+        let stored = initial_energy(self.view(), &self.cache.trial.points);
         if self.history.springs {
             // How stiff and viscous what touches is bounds explicit increments from the first on.
             std::mem::swap(&mut self.cache.last, &mut self.cache.trial);
@@ -111,11 +112,5 @@ impl Interface {
             history.pressure = pressure;
             history.shear = shear;
         }
-    }
-
-    /// Whether a point touched or was near at the last evaluation, by the height of the cell beneath it.
-    pub fn touches(&self) -> bool {
-        let mut points = self.cache.trial.points.iter().zip(&self.points);
-        points.any(|(e, point)| e.over && e.gap <= TOUCHING * point.size)
     }
 }

@@ -1,10 +1,11 @@
 //! An evaluation of all points of an interface.
 
+use super::candidates::enclose;
 use rayon::prelude::*;
 
 use super::cache::Cache;
-use super::definition::Interface;
 use super::evaluation::{Batch, CHUNK, Evaluation, Evaluations};
+use super::parts::Interface;
 use super::scene::{LawQuery, Scene, Wants};
 use crate::contact::pairing::Anchor;
 use crate::math::scale;
@@ -28,7 +29,7 @@ impl Interface {
         if self.mortar.is_some() {
             self.integrate(cache, wants.holds_turns);
         } else if !self.kinematics.as_dyn().frozen() {
-            self.enclose(&cache.x, &mut cache.bounds);
+            enclose(&self.definition, &cache.x, &mut cache.bounds);
         }
         let mut out = std::mem::take(&mut cache.trial);
         let mut anchors = std::mem::take(&mut cache.anchors);

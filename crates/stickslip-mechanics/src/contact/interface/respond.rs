@@ -1,9 +1,9 @@
 //! What the laws answer at a point.
 
-use super::definition::Interface;
 use super::evaluate::Met;
 use super::evaluation::{Batch, Evaluation, Frames, Question, Slots, components};
 use super::initial::TOUCHING;
+use super::parts::Interface;
 use super::scene::{LawQuery, Scene};
 use super::worn::length;
 use crate::contact::enforcement::Multipliers;
@@ -26,7 +26,7 @@ impl Interface {
             batch.stencil.gap -= glued;
         }
         let hollow = self.hollow(i, scene, &batch.sides[met.sides..]);
-        batch.stencil.gap += hollow - self.offset_at_start(i, scene.t);
+        batch.stencil.gap += hollow - self.view().offset_at_start(i, scene.t);
         let slots = self.claim(met, batch);
         let stencil = &batch.stencil;
         let belt = stencil.frame.map(|e| dot(e, scene.belt));
@@ -78,7 +78,7 @@ impl Interface {
         }
         let [e, f] = stencil.frame_before;
         let moved = add_scaled(scale(slid[0], e), slid[1], f);
-        let off = match self.holds_exactly() {
+        let off = match self.view().holds_exactly() {
             true => [stencil.gap - at.rest, slid[0], slid[1]],
             false => [0.0; 3],
         };
@@ -174,7 +174,7 @@ impl Interface {
             _ => [0.0, carried[0], carried[1]],
         };
         Kept {
-            unknown: self.unknown(),
+            unknown: self.view().unknown(),
             multiplier: [multiplier.pressure, shear[0], shear[1]],
             centre,
             shear: carried,
@@ -187,7 +187,7 @@ impl Interface {
     /// point in it, that has no end: pressure would grow without anything that asks for it. What the tolerance has accepted is accepted for
     /// as long as the point is in contact.
     fn rest(&self, i: usize) -> f64 {
-        if !self.unknown() {
+        if !self.view().unknown() {
             return self.history.rest.get(i).copied().unwrap_or(0.0);
         }
         let (before, accepted) = (&self.history.points[i], self.attempt.accepted_gap);

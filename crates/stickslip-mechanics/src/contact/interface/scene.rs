@@ -8,7 +8,7 @@ use crate::system::Rate;
 
 /// What is asked of an evaluation.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Wants {
+pub(in crate::contact) struct Wants {
     pub tangent: bool,
     pub surrogate: bool,
     /// See [`Assembler`](crate::system::Assembler).
@@ -19,7 +19,7 @@ pub(super) struct Wants {
 
 /// What is wanted of laws that are asked for all points at once, instead of a response.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum LawQuery {
+pub(in crate::contact) enum LawQuery {
     Nothing,
     Gaps,
     Friction,
@@ -27,7 +27,7 @@ pub(super) enum LawQuery {
 
 /// What all points of one evaluation share.
 #[derive(Clone, Copy)]
-pub(super) struct Scene<'a> {
+pub(in crate::contact) struct Scene<'a> {
     /// Coordinates, bounds, integrals and the iterate before.
     pub cache: &'a Cache,
     /// Pose of the obstacle now and at the last accepted state.

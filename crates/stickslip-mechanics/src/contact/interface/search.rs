@@ -10,7 +10,7 @@ use crate::math::{Vec3, add_scaled, distance};
 
 /// Facets near points.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Search {
+pub(in crate::contact) struct Search {
     /// By point, ascending.
     pub candidates: Vec<Vec<usize>>,
     /// Coordinates for which they were found.
@@ -23,7 +23,7 @@ pub(super) struct Search {
 
 /// Facets near the faces of a mortar.
 #[derive(Debug, Clone, Default)]
-pub(super) struct FaceSearch {
+pub(in crate::contact) struct FaceSearch {
     /// By face.
     pub opposite: Vec<Vec<usize>>,
     /// Coordinates for which they were found.

@@ -1,6 +1,6 @@
 //! How stiffly bodies and enforcement resist at a point.
 
-use super::definition::Interface;
+use super::parts::Interface;
 use crate::contact::enforcement::{Multipliers, Stiffness};
 use crate::contact::surface::ContactPoint;
 
@@ -31,11 +31,6 @@ impl Interface {
         self.points[i].stiffness + inertia
     }
 
-    /// Whether multipliers are unknowns of the present attempt.
-    pub(super) fn unknown(&self) -> bool {
-        self.laws.unknown_multipliers() && !self.history.springs
-    }
-
     /// Stiffness against slip at a point whose own is this `[Pa/m]`; infinite where the law alone says what resists.
     pub(super) fn tangential_stiffness(&self, own: f64) -> f64 {
         match self.laws.needs_tangential_stiffness() {
@@ -46,7 +41,7 @@ impl Interface {
     }
 
     /// A stiffness of the enforcement as far as it has been tightened, or that of the cell beneath where explicit springs replace multipliers.
-    pub(super) fn spring(&self, stiffness: Stiffness, own: f64) -> f64 {
+    pub(in crate::contact) fn spring(&self, stiffness: Stiffness, own: f64) -> f64 {
         let multipliers = self.laws.enforcement.as_dyn().multipliers();
         if self.history.springs && multipliers != Multipliers::None {
             return own;

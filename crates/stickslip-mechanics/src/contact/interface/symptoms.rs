@@ -1,6 +1,7 @@
 //! What points of an interface did in an attempt that failed.
 
-use super::definition::{Interface, Primary};
+use super::definition::Primary;
+use super::parts::Interface;
 use crate::contact::law::normal::NormalLaw;
 use crate::contact::response::Status;
 use crate::math::{add, distance, norm};
@@ -30,82 +31,70 @@ impl Status {
 }
 
 impl Interface {
-    /// What a point did in the present attempt.
-    pub fn evidence(&self, i: usize) -> Evidence {
-        let point = &self.points[i];
-        let (attempt, cache) = (&self.attempt, &self.cache);
-        let mut evidence = Evidence {
-            interface: self.name.clone(),
-            node: point.node().map(|one| self.node_ids[one]),
-            points: point.nodes.iter().map(|&n| self.nodes[n]).collect(),
-            position: add(point.position(&self.reference), self.origin),
-            normal: point.normal.map(|c| -c),
-            kink: 1.0,
-            ..Evidence::default()
-        };
-        if let Some(flips) = attempt.flips.get(i) {
-            evidence.flips = flips.count;
-            evidence.left = flips.left;
-            let course = flips.last.iter().rev().flatten();
-            evidence.course = course.map(|s| s.word()).collect();
-        }
-        let Some(e) = cache.last.points.get(i) else {
-            return evidence;
-        };
-        if e.frames.normal != [0.0; 3] {
-            evidence.normal = e.frames.normal;
-        }
-        evidence.gap = e.gap;
-        evidence.pressure = e.response.traction[0];
-        evidence.shear = e.response.traction[1].hypot(e.response.traction[2]);
-        evidence.limit = e.response.limit;
-        evidence.slip = norm(e.moved);
-        if let (Primary::Facets(facets), Some(f)) = (&self.primary, e.facet) {
-            let x = |k: usize| self.reference[facets[f].nodes[k]];
-            evidence.facet = distance(x(0), x(1));
-            evidence.cell = Some(facets[f].cell);
-        }
-        if let Some(before) = cache.trial.points.get(i) {
-            evidence.kink = kink(self.laws.normal_law(), before.gap, e.gap);
-        }
-        evidence
-    }
-
-    /// The points that changed status most often in this attempt, then those that slid farthest or lie at a kink of the normal law.
-    pub(super) fn culprits(&self) -> Vec<Culprit> {
-        let mut all: Vec<Evidence> = (0..self.cache.last.points.len())
-            .map(|i| self.evidence(i))
-            .filter(|e| {
-                let slid = e.facet > 0.0 && e.slip > FAR * e.facet;
-                e.flips > 0 || e.left > 0 || e.kink > KINK || slid
-            })
-            .collect();
-        // The sort is stable: points of equal guilt keep their order.
-        all.sort_by(|a, b| {
-            let slid = |e: &Evidence| e.slip / e.facet.max(f64::MIN_POSITIVE);
-            let flips = b.flips.cmp(&a.flips);
-            flips.then_with(|| slid(b).total_cmp(&slid(a)))
-        });
-        all.truncate(MOST);
-        all.into_iter().map(culprit).collect()
-    }
-
     /// A point as a place to look at.
     pub(super) fn culprit(&self, i: usize) -> Culprit {
-        culprit(self.evidence(i))
+        culprit(evidence(self, i))
     }
+}
 
-    /// Statuses at the last evaluation, or at the last accepted state where there is none.
-    pub fn statuses(&self) -> Vec<Status> {
-        let (history, cache) = (&self.history, &self.cache);
-        match cache.last.points.is_empty() {
-            true => history.points.iter().map(|h| h.status).collect(),
-            false => {
-                let points = cache.last.points.iter();
-                points.map(|e| e.response.status).collect()
-            }
-        }
+/// What a point did in the present attempt.
+pub fn evidence(interface: &Interface, i: usize) -> Evidence {
+    let point = &interface.points[i];
+    let (attempt, cache) = (&interface.attempt, &interface.cache);
+    let mut evidence = Evidence {
+        interface: interface.name.clone(),
+        node: point.node().map(|one| interface.node_ids[one]),
+        points: point.nodes.iter().map(|&n| interface.nodes[n]).collect(),
+        position: add(point.position(&interface.reference), interface.origin),
+        normal: point.normal.map(|c| -c),
+        kink: 1.0,
+        ..Evidence::default()
+    };
+    if let Some(flips) = attempt.flips.get(i) {
+        evidence.flips = flips.count;
+        evidence.left = flips.left;
+        let course = flips.last.iter().rev().flatten();
+        evidence.course = course.map(|s| s.word()).collect();
     }
+    let Some(e) = cache.last.points.get(i) else {
+        return evidence;
+    };
+    if e.frames.normal != [0.0; 3] {
+        evidence.normal = e.frames.normal;
+    }
+    evidence.gap = e.gap;
+    evidence.pressure = e.response.traction[0];
+    evidence.shear = e.response.traction[1].hypot(e.response.traction[2]);
+    evidence.limit = e.response.limit;
+    evidence.slip = norm(e.moved);
+    if let (Primary::Facets(facets), Some(f)) = (&interface.primary, e.facet) {
+        let x = |k: usize| interface.reference[facets[f].nodes[k]];
+        evidence.facet = distance(x(0), x(1));
+        evidence.cell = Some(facets[f].cell);
+    }
+    if let Some(before) = cache.trial.points.get(i) {
+        evidence.kink = kink(interface.laws.normal_law(), before.gap, e.gap);
+    }
+    evidence
+}
+
+/// The points that changed status most often in this attempt, then those that slid farthest or lie at a kink of the normal law.
+pub(super) fn culprits(interface: &Interface) -> Vec<Culprit> {
+    let mut all: Vec<Evidence> = (0..interface.cache.last.points.len())
+        .map(|i| evidence(interface, i))
+        .filter(|e| {
+            let slid = e.facet > 0.0 && e.slip > FAR * e.facet;
+            e.flips > 0 || e.left > 0 || e.kink > KINK || slid
+        })
+        .collect();
+    // The sort is stable: points of equal guilt keep their order.
+    all.sort_by(|a, b| {
+        let slid = |e: &Evidence| e.slip / e.facet.max(f64::MIN_POSITIVE);
+        let flips = b.flips.cmp(&a.flips);
+        flips.then_with(|| slid(b).total_cmp(&slid(a)))
+    });
+    all.truncate(MOST);
+    all.into_iter().map(culprit).collect()
 }
 
 /// Evidence with its prose.

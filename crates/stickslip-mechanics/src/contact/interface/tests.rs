@@ -1,9 +1,10 @@
 //! Whole interfaces: what is skipped makes no difference, and the tangent is that of the force.
 
+use super::Initial;
 use super::attempt::Flips;
-use super::definition::{Interface, Primary};
+use super::definition::{InterfaceDefinition, Primary};
+use super::parts::Interface;
 use super::search::Search;
-use super::{Attempt, Cache, Directives, History, Initial};
 use crate::contact::bounds::Bounds;
 use crate::contact::enforcement::{EnforcementModel, Penalty};
 use crate::contact::facet_point::FacetPoint;
@@ -20,7 +21,7 @@ use crate::system::{ActiveSet, Assembler, Dofs, Force, Schedule, Stage, State};
 const CELLS: usize = 4;
 
 /// A wavy surface over the unit square, in facets of this kind, and points that lie in it or over it and beyond its edges.
-pub(super) fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interface {
+pub(in crate::contact) fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interface {
     let step = kind.order();
     let line = step * CELLS + 1;
     let wavy = |x: f64, y: f64| [x, y + 0.02 * x, 0.1 * (5.0 * x).sin() * (4.0 * y).cos()];
@@ -73,7 +74,7 @@ pub(super) fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interfac
             across: Default::default(),
         });
     }
-    Interface {
+    Interface::new(InterfaceDefinition {
         name: "joint".into(),
         dofs: Dofs {
             dim: 3,
@@ -107,11 +108,7 @@ pub(super) fn sample(kind: ElementKind, kinematics: KinematicsModel) -> Interfac
         origin: [0.0; 3],
         initial: Initial::default(),
         relief: Vec::new(),
-        history: History::default(),
-        attempt: Attempt::default(),
-        directives: Directives::default(),
-        cache: Cache::default(),
-    }
+    })
 }
 
 /// Displacements without a pattern.
@@ -170,9 +167,9 @@ fn facets_that_are_skipped_would_not_have_been_chosen() {
             let state = moved(&interface, f64::from(round), 0.01);
             let x = interface.coordinates(&state.u);
             let mut search = Search::default();
-            interface.search(&mut search, &x);
+            super::candidates::update_candidates(&interface, &mut search, &x);
             let mut bounds = Vec::new();
-            interface.enclose(&x, &mut bounds);
+            super::candidates::enclose(&interface, &x, &mut bounds);
             let without: Vec<Bounds> = bounds.iter().map(|b| b.endless()).collect();
             for i in 0..interface.points.len() {
                 let candidates = &search.candidates[i];
@@ -189,8 +186,20 @@ fn facets_that_are_skipped_would_not_have_been_chosen() {
                         facet: previous,
                         ..Previous::default()
                     };
-                    let quick = interface.closest(i, (&x, &[], &bounds), &search, previous);
-                    let full = interface.closest(i, (&x, &[], &without), &search, previous);
+                    let quick = super::candidates::closest(
+                        &interface,
+                        i,
+                        (&x, &[], &bounds),
+                        &search,
+                        previous,
+                    );
+                    let full = super::candidates::closest(
+                        &interface,
+                        i,
+                        (&x, &[], &without),
+                        &search,
+                        previous,
+                    );
                     found += usize::from(full.is_ok());
                     assert_eq!(place(quick), place(full), "{kind}, point {i}");
                 }
@@ -278,16 +287,19 @@ fn numbers_of_facets_make_no_difference() {
     for kind in [ElementKind::Tri3, ElementKind::Quad4] {
         let mut ordered = sample(kind, KinematicsModel::default());
         let grid = (CELLS + 1) * (CELLS + 1);
-        for (k, point) in ordered.points.iter_mut().enumerate() {
+        let InterfaceDefinition {
+            points, reference, ..
+        } = &mut ordered.definition;
+        for (k, point) in points.iter_mut().enumerate() {
             // right below a node of the surface
             let node = k % grid;
-            let deep = add_scaled(ordered.reference[node], -0.004, [0.0, 0.0, 1.0]);
-            ordered.reference[point.nodes[0]] = deep;
+            let deep = add_scaled(reference[node], -0.004, [0.0, 0.0, 1.0]);
+            reference[point.nodes[0]] = deep;
             point.nodes.truncate(1);
             point.weights = vec![1.0];
         }
         let mut reversed = ordered.clone();
-        if let Primary::Facets(facets) = &mut reversed.primary {
+        if let Primary::Facets(facets) = &mut reversed.definition.primary {
             facets.reverse();
             for f in facets.iter_mut() {
                 f.continues.clear();
@@ -329,7 +341,7 @@ fn numbers_of_facets_make_no_difference() {
 fn tentative_evaluations_leave_no_trace_until_they_are_settled() {
     for enforcement in EnforcementModel::samples() {
         let mut plain = sample(ElementKind::Quad4, KinematicsModel::default());
-        plain.laws.enforcement = enforcement;
+        plain.definition.laws.enforcement = enforcement;
         let from = moved(&plain, 0.0, 1e-3);
         let [first, far, next] = [1.0, 2.0, 3.0].map(|t| State {
             t: 1.0,
@@ -395,7 +407,7 @@ fn tentative_evaluations_leave_no_trace_until_they_are_settled() {
 fn points_pass_edges_a_few_times_only() {
     for enforcement in EnforcementModel::samples() {
         let mut interface = sample(ElementKind::Quad4, KinematicsModel::default());
-        interface.laws.enforcement = enforcement;
+        interface.definition.laws.enforcement = enforcement;
         let dofs = interface.dofs;
         // All points of the secondary stay, or go beyond the edge together.
         let state = |interface: &Interface, way: f64| {

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::definition::Interface;
 use super::evaluation::{Evaluations, Question};
+use super::parts::Interface;
 use super::scene::{LawQuery, Scene, Wants};
 use crate::contact::law::user::{LimitFunction, PressureFunction, UserFriction, UserNormal};
 use crate::contact::pairing::Anchor;
@@ -22,8 +22,8 @@ impl Interface {
     ) {
         let sizes = self.points.iter().map(|p| p.size).sum::<f64>();
         let length = sizes / self.points.len().max(1) as f64;
-        self.laws.user.normal = normal.map(|f| UserNormal::new(f, length));
-        self.laws.user.friction = friction.map(UserFriction::new);
+        self.definition.laws.user.normal = normal.map(|f| UserNormal::new(f, length));
+        self.definition.laws.user.friction = friction.map(UserFriction::new);
     }
 
     /// What laws of the program say at the points of a scene; nothing where there are none.

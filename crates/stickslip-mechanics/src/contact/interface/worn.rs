@@ -10,9 +10,10 @@
 //! ([`LawInput::worn`](crate::contact::response::LawInput::worn)). The path in it is that which the iterate slides, and its derivative is left out of the tangent: the
 //! solution does not depend on that, and the tangent stays as symmetric as it was.
 
-use super::definition::Interface;
+use super::definition::InterfaceDefinition;
 use super::evaluation::Evaluation;
 use super::history::PointHistory;
+use super::parts::Interface;
 use super::scene::Scene;
 use crate::contact::kinematics::Stencil;
 use crate::contact::law::wear::{Feedback, Sliding, WearPoint, WearRate};
@@ -38,15 +39,6 @@ pub(super) fn path(response: &Response, frictional: bool, frame: [Vec3; 2], move
 }
 
 impl Interface {
-    /// How fast the side with the points and the other one wear at a point.
-    fn wear_rates(&self, at: &WearPoint) -> [WearRate; 2] {
-        let mut rates = self.laws.wear.as_dyn().rates(at);
-        if self.exchanged {
-            rates.reverse();
-        }
-        rates
-    }
-
     /// How many times wear counts what slides.
     pub(super) fn cycles(&self) -> f64 {
         1.0 + self.directives.skipped
@@ -90,22 +82,15 @@ impl Interface {
         // h = k(p) p s has the tangent k p s + (k + p k') s (p' - p).
         let mut worn = Worn::default();
         let felt = self.history.ground.felt.get(i).copied().unwrap_or(1.0);
-        for (rate, part) in self.wear_rates(&at).into_iter().zip([1.0, felt]) {
+        for (rate, part) in wear_rates(&self.definition, &at)
+            .into_iter()
+            .zip([1.0, felt])
+        {
             let change = pressure * rate.d_pressure;
             worn.slope += part * (rate.per_path(shear) + change) * way;
             worn.base -= part * pressure * change * way;
         }
         worn
-    }
-
-    /// Length of the way over which a point wears: what the spring of a point that sticks gives way is none, in motion neither.
-    pub(super) fn rubbed(&self, response: &Response, frame: [Vec3; 2], moved: Vec3) -> f64 {
-        let frictional = self.laws.friction_law().frictional();
-        let sticks = frictional && self.laws.slip.as_dyn().sticks();
-        match response.status {
-            Status::Stick if sticks => 0.0,
-            _ => path(response, frictional, frame, moved),
-        }
     }
 
     /// What the laws answer a point that wears as it slides. How far it slides depends on the pressure, which falls with what is worn off: the way rises from what it
@@ -120,7 +105,7 @@ impl Interface {
     ) -> Response {
         let mut response = self.laws.respond(stencil, at);
         for _ in 0..EVALUATIONS {
-            let path = self.rubbed(&response, stencil.frame_before, moved);
+            let path = rubbed(&self.definition, &response, stencil.frame_before, moved);
             let pressure = response.traction[0].max(0.0);
             let worn = self.softness(i, (path, at.dt), pressure);
             let off = worn.depth(pressure) - at.worn.depth(pressure);
@@ -144,7 +129,7 @@ impl Interface {
         (pressed, dissipated): (f64, f64),
         dt: f64,
     ) -> [f64; 2] {
-        let path = self.rubbed(&e.response, e.frames.before, e.moved);
+        let path = rubbed(&self.definition, &e.response, e.frames.before, e.moved);
         let pressed = match self.laws.feedback {
             Feedback::None => pressed,
             // That is what the gap was opened by.
@@ -162,7 +147,7 @@ impl Interface {
             pressure: if path > 0.0 { pressed / path } else { 0.0 },
             speed: path / dt,
         };
-        self.wear_rates(&at).map(|r| self.cycles() * r.depth(slid))
+        wear_rates(&self.definition, &at).map(|r| self.cycles() * r.depth(slid))
     }
 
     /// Adds volumes that points take from the primary to the depths of its corners.
@@ -179,66 +164,47 @@ impl Interface {
             }
         }
         let traces = &mut self.history.traces;
-        traces.resize(self.nodes.len(), [0.0; 2]);
-        let areas = self.hollows.area.iter().zip(&lost);
+        traces.resize(self.definition.nodes.len(), [0.0; 2]);
+        let areas = self.definition.hollows.area.iter().zip(&lost);
         for (trace, (area, lost)) in traces.iter_mut().zip(areas) {
             if *area > 0.0 {
                 trace[1] += lost / area;
             }
         }
-        for node in 0..self.hollows.ends.len() {
-            let [a, b] = self.hollows.ends[node];
+        for node in 0..self.definition.hollows.ends.len() {
+            let [a, b] = self.definition.hollows.ends[node];
             if a != b {
                 traces[node][1] = 0.5 * (traces[a][1] + traces[b][1]);
             }
         }
     }
 
-    /// Volume that the depths of both sides make up, that with the points first `[m³]`: what the laws say has been lost, to rounding.
-    pub fn hollowed(&self) -> [f64; 2] {
-        let points = self.history.points.iter().zip(&self.points);
-        let own = points.map(|(h, p)| h.worn * p.area * self.share).sum();
-        if let Some([_, volume]) = self.ground_lost() {
-            return [own, volume];
-        }
-        let depths = self.history.traces.iter().zip(&self.hollows.area);
-        [own, depths.map(|(t, area)| t[1] * area).sum()]
-    }
-
-    /// Whether sliding wears off one of the surfaces.
-    pub fn wears(&self) -> bool {
-        self.laws.wear.as_dyn().active()
-    }
-
-    /// What sliding has taken so far, place by place: volumes of both sides where one of them wears `[m³]`, otherwise energies `[J]`.
-    pub fn taken(&self) -> Vec<f64> {
-        let points = self.history.points.iter().zip(&self.points);
-        if !self.wears() {
-            return points
-                .map(|(h, p)| h.dissipated * p.area * self.share)
-                .collect();
-        }
-        let own = points.map(|(h, p)| h.worn * p.area * self.share);
-        let depths = self.history.traces.iter().zip(&self.hollows.area);
-        let nodes = depths.map(|(t, area)| t[1] * area);
-        own.chain(nodes)
-            .chain(self.history.ground.taken.iter().copied())
-            .collect()
-    }
-
-    /// The places of [`Interface::taken`] where something wears: whether they are on the primary, and their areas `[m²]`.
-    pub fn wear_places(&self) -> Vec<(bool, f64)> {
-        let areas = || self.points.iter().map(|p| p.area * self.share);
-        let own = areas().map(|area| (false, area));
-        let nodes = self.history.traces.iter().zip(&self.hollows.area);
-        let nodes = nodes.map(|(_, area)| (true, *area));
-        own.chain(nodes)
-            .chain(areas().map(|area| (true, area)))
-            .collect()
-    }
-
     /// Tells how many cycles beyond the one that is computed it stands for, as far as wear is concerned.
     pub fn skip(&mut self, cycles: f64) {
         self.directives.skipped = cycles;
+    }
+}
+
+/// How fast the side with the points and the other one wear at a point.
+fn wear_rates(definition: &InterfaceDefinition, at: &WearPoint) -> [WearRate; 2] {
+    let mut rates = definition.laws.wear.as_dyn().rates(at);
+    if definition.exchanged {
+        rates.reverse();
+    }
+    rates
+}
+
+/// Length of the way over which a point wears: what the spring of a point that sticks gives way is none, in motion neither.
+pub(in crate::contact) fn rubbed(
+    definition: &InterfaceDefinition,
+    response: &Response,
+    frame: [Vec3; 2],
+    moved: Vec3,
+) -> f64 {
+    let frictional = definition.laws.friction_law().frictional();
+    let sticks = frictional && definition.laws.slip.as_dyn().sticks();
+    match response.status {
+        Status::Stick if sticks => 0.0,
+        _ => path(response, frictional, frame, moved),
     }
 }

@@ -12,6 +12,7 @@ use super::surfaces::Opposite;
 use super::{balance, coupling};
 use crate::assess::view::View;
 use crate::contact::interface::Interface;
+use crate::contact::look;
 use crate::contact::response::Status;
 use crate::error::RunError;
 use crate::math::Vec3;
@@ -183,9 +184,9 @@ fn contact_rows(view: &View, t: f64) -> Vec<Row> {
             continue;
         }
         let mut opposite = Opposite::new(interface, t);
-        for (i, status) in interface.statuses().into_iter().enumerate() {
+        for (i, status) in look::statuses(interface).into_iter().enumerate() {
             if status != Status::Open {
-                let normal = interface.evidence(i).normal;
+                let normal = look::evidence(interface, i).normal;
                 rows(interface, &mut opposite, (i, normal, status), &mut out);
             }
         }
@@ -275,7 +276,7 @@ fn free_mode(view: &View, trial: &Trial, free: &[FloatingBody], how: &str) -> Fi
         let Some((i, gap)) = smallest_gap(interface, trial.from) else {
             continue;
         };
-        let e = interface.evidence(i);
+        let e = look::evidence(interface, i);
         if gap > 0.0 {
             finding = finding.blame(point(
                 &e,
@@ -346,7 +347,7 @@ fn driven(finding: Finding, view: &View, body: usize, trial: &Trial) -> Finding 
 
 /// The point nearest to the primary at the last accepted state, or as meshed where there is none, and its gap.
 fn smallest_gap(interface: &Interface, t: f64) -> Option<(usize, f64)> {
-    let accepted = interface.initial_gaps();
+    let accepted = look::initial_gaps(interface.view());
     let finite = accepted.into_iter().enumerate();
     let accepted = finite.filter(|(_, g)| g.is_finite());
     if let Some(found) = accepted.min_by(|a, b| a.1.total_cmp(&b.1)) {

@@ -1,11 +1,13 @@
 //! What interfaces did over a whole run: those that never carried anything, those whose contact is too small for their mesh.
 
+use crate::contact::look;
 use serde::Serialize;
 
 use super::cause::DoctorCause;
 use super::finding::{Finding, Guilty, Severity, What};
 use crate::assess::view::View;
-use crate::contact::interface::{Interface, Resolution, Resultant};
+use crate::contact::interface::Interface;
+use crate::contact::look::{Resolution, Resultant};
 use crate::math::Vec3;
 use crate::model::Body;
 
@@ -76,19 +78,19 @@ impl Watch {
             };
         }
         self.acted |= interface.schedule.active(t);
-        let turn = interface.normals_turned(u);
+        let turn = look::normals_turned(interface.view(), u);
         if turn > self.turn {
             self.turn = turn;
             self.turned_at = t;
         }
         if force > NEXT_TO_NOTHING * self.force {
             self.carried_at = t;
-            self.carriers = interface.closed();
+            self.carriers = look::closed(interface.view());
         }
         if force > self.force {
             self.force = force;
             self.time = t;
-            self.resolution = interface.resolution();
+            self.resolution = look::resolution(interface.view());
         }
     }
 }
@@ -174,7 +176,7 @@ fn turned(interface: &Interface, watch: &Watch) -> Option<Finding> {
 }
 
 fn deep(interface: &Interface) -> Option<Finding> {
-    let scar = interface.scar()?;
+    let scar = look::scar(interface.view())?;
     let mut said = Vec::new();
     if scar.slope > STEEP {
         said.push(format!("has a slope of up to {:.2}", scar.slope));
@@ -210,7 +212,7 @@ fn left(view: &View, interface: &Interface, watch: &Watch) -> Option<Finding> {
     if interface.rigid() || watch.carried_at >= now || !interface.schedule.active(now) {
         return None;
     }
-    let gaps = interface.initial_gaps();
+    let gaps = look::initial_gaps(interface.view());
     let beyond = watch.carriers.iter().filter(|&&i| !gaps[i].is_finite());
     let count = beyond.clone().count();
     if count == 0 || 2 * count < watch.carriers.len() {

@@ -1,5 +1,6 @@
 //! Interfaces: surfaces of the joined mesh to contact points and facets.
 
+use crate::contact::look;
 use std::sync::Arc;
 
 use super::super::{FacetShape, Interface as Table, Problem, Roles};
@@ -12,10 +13,10 @@ use super::surfaces::{Numbering, Surfaces};
 use crate::body::Space;
 use crate::contact::enforcement::Multipliers;
 use crate::contact::interface::{
-    Above, Attempt, Cache, Directives, Ground, History, Hollows, Initial, Interface, Primary,
-    Start, neighbours,
+    Above, Ground, Hollows, Initial, InterfaceDefinition, Primary, Start,
 };
 use crate::contact::law::wear::{Feedback, WearRate};
+use crate::contact::look::neighbours;
 use crate::contact::mortar::Mortar;
 use crate::contact::response::Laws;
 use crate::contact::surface::{ContactPoint, connect, skin, triangulate};
@@ -36,7 +37,7 @@ pub(super) fn build(
     bodies: &[Body],
     timeline: &Timeline,
     (held, held_nodes): (&Held, &HeldNodes),
-) -> Result<Vec<Interface>, Error> {
+) -> Result<Vec<InterfaceDefinition>, Error> {
     let surfaces = Surfaces {
         mesh,
         space,
@@ -79,7 +80,7 @@ pub(super) fn build(
 const COARSER: f64 = 1.25;
 
 /// An interface made with its sides exchanged: what the problem says of one side is said of the other.
-fn exchanged(mut interface: Interface) -> Interface {
+fn exchanged(mut interface: InterfaceDefinition) -> InterfaceDefinition {
     interface.exchanged = true;
     reverse(&mut interface.belt);
     interface
@@ -131,7 +132,7 @@ impl Make<'_> {
     /// Whether the side that is named primary becomes the secondary, because its cells are smaller: points see what is opposite them, and between points that are
     /// far apart a finer surface would enter unseen. Not where the problem says more of the points than what they are on: which of them move, which take part;
     /// and points of a rigid body, which cannot give way one by one, are no secondary.
-    fn to_exchange(&self, named: &Interface) -> bool {
+    fn to_exchange(&self, named: &InterfaceDefinition) -> bool {
         let table = self.table;
         let settled = table.roles == Roles::AsNamed
             || table.tied
@@ -147,7 +148,7 @@ impl Make<'_> {
             let body = bodies.iter().find(|b| b.points.contains(n));
             body.is_some_and(|b| b.rigid.is_some())
         });
-        !rigid && named.coarser().is_some_and(|ratio| ratio > COARSER)
+        !rigid && look::coarser(named).is_some_and(|ratio| ratio > COARSER)
     }
 
     /// How an interface starts; `key` is that of its secondary.
@@ -286,7 +287,7 @@ impl Make<'_> {
         secondary: &(&str, String),
         primary: &(&str, String),
         share: f64,
-    ) -> Result<Interface, Error> {
+    ) -> Result<InterfaceDefinition, Error> {
         let (surfaces, table) = (self.surfaces, self.table);
         let (facets, only) = self.secondary_facets(secondary)?;
         if only.is_none() {
@@ -329,7 +330,7 @@ impl Make<'_> {
             dim: surfaces.space.dim(),
         };
         let hollows = self.hollows(&opposite, above, &primary.1)?;
-        let mut interface = Interface {
+        let mut interface = InterfaceDefinition {
             name,
             dofs: Dofs {
                 dim: surfaces.space.dim(),
@@ -359,10 +360,6 @@ impl Make<'_> {
             edge_tolerance: EDGE_TOLERANCE,
             initial: self.initial(&secondary.1)?,
             relief: Vec::new(),
-            history: History::default(),
-            attempt: Attempt::default(),
-            directives: Directives::default(),
-            cache: Cache::default(),
         };
         if let Some(angle) = table.discretisation().as_dyn().weighted() {
             mirrors::mark(&mut interface, self.held, angle.to_radians());

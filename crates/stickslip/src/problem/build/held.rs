@@ -7,7 +7,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::body::couplings::{Coupling, Row, Tie};
-use crate::contact::interface::Interface;
+use crate::contact::interface::InterfaceDefinition;
 use crate::contact::surface::ContactPoint;
 use crate::math::{Vec3, dot, symmetric_eigen};
 use crate::model::Support;
@@ -98,7 +98,7 @@ impl<'a> HeldNodes<'a> {
     }
 
     /// Marks the nodes of all interfaces: those of ties first, as a node that is tied twice follows once.
-    pub fn mark(&mut self, interfaces: &mut [Interface]) {
+    pub fn mark(&mut self, interfaces: &mut [InterfaceDefinition]) {
         let (ties, others): (Vec<_>, Vec<_>) = interfaces.iter_mut().partition(|i| i.laws.tied);
         for interface in ties.into_iter().chain(others) {
             self.mark_one(interface);
@@ -172,7 +172,7 @@ impl<'a> HeldNodes<'a> {
         kept
     }
 
-    fn mark_one(&mut self, interface: &mut Interface) {
+    fn mark_one(&mut self, interface: &mut InterfaceDefinition) {
         let (tied, dim) = (interface.laws.tied, self.dofs.dim);
         let (theirs, own) = interface.nodes.split_at(interface.primary_nodes);
         let repeated = self.repeated(theirs, own);

@@ -1,7 +1,7 @@
 //! Which points of interfaces lie on planes of symmetry: supports say so.
 
 use crate::body::Space;
-use crate::contact::interface::{Interface, Primary};
+use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::math::{Vec3, norm, normalize, sub};
 use crate::model::Support;
 use crate::system::{Course, Dofs, Links};
@@ -56,7 +56,7 @@ impl<'a> Held<'a> {
 
 /// Marks the points of weighted interfaces that lie on planes of symmetry: planes across an axis on which both surfaces end, and none of whose points leaves it.
 /// `angle`: the largest between faces of one smooth surface `[rad]`, so that image and original are one.
-pub(super) fn mark(interface: &mut Interface, held: &Held, angle: f64) {
+pub(super) fn mark(interface: &mut InterfaceDefinition, held: &Held, angle: f64) {
     let reference = interface.reference.clone();
     let nodes = || reference.iter().copied();
     let low = nodes().fold([f64::INFINITY; 3], |m, x| {
@@ -77,7 +77,12 @@ pub(super) fn mark(interface: &mut Interface, held: &Held, angle: f64) {
 }
 
 /// Whether the plane of these nodes, across axis `c`, is one of symmetry.
-fn symmetric(interface: &Interface, held: &Held, (c, plane): (usize, f64), on: &[bool]) -> bool {
+fn symmetric(
+    interface: &InterfaceDefinition,
+    held: &Held,
+    (c, plane): (usize, f64),
+    on: &[bool],
+) -> bool {
     let Primary::Facets(facets) = &interface.primary else {
         return false;
     };
@@ -94,7 +99,7 @@ fn symmetric(interface: &Interface, held: &Held, (c, plane): (usize, f64), on: &
 }
 
 /// The points at these nodes have nothing across axis `c`, if their normal has no more than `most`.
-fn cross_out(interface: &mut Interface, c: usize, on: &[bool], most: f64) {
+fn cross_out(interface: &mut InterfaceDefinition, c: usize, on: &[bool], most: f64) {
     let Some(mortar) = &mut interface.mortar else {
         return;
     };

@@ -30,6 +30,7 @@ use super::{BodyRotation, Problem};
 use crate::body::Elastic;
 use crate::body::couplings::{Couplings, Ground};
 use crate::body::loads::{Action, Domain, Load, LoadKind, Pressing, Region, Spring, Target};
+use crate::contact::interface::{Interface, InterfaceDefinition};
 use crate::error::{Diagnostic, Error};
 use crate::mesh::FacetRef;
 use crate::model::{Body, Contact, Heat, Model, OutputPlan, Prescribed, Probe, Setup, Support};
@@ -76,7 +77,7 @@ impl Problem {
     }
 
     /// What is said of an interface whose sides were exchanged.
-    fn exchange_note(&self, interface: &crate::contact::interface::Interface) -> Option<String> {
+    fn exchange_note(&self, interface: &InterfaceDefinition) -> Option<String> {
         let table = self.interface.get(&interface.name)?;
         interface.exchanged.then(|| {
             format!(
@@ -282,7 +283,7 @@ impl Problem {
         Ok(Setup {
             model,
             contact: Contact {
-                interfaces,
+                interfaces: interfaces.into_iter().map(Interface::new).collect(),
                 couplings,
             },
             notes,

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::super::{Problem, Roughness};
 use super::fault::problem_error;
-use crate::contact::interface::Interface;
+use crate::contact::interface::InterfaceDefinition;
 use crate::error::{Diagnostic, Error};
 use crate::math::{Vec3, add, add_scaled, cross, dot, normalize, sub};
 use crate::roughness::Figures;
@@ -19,7 +19,7 @@ const ACROSS: f64 = 0.9;
 pub(super) fn apply(
     problem: &Problem,
     folder: &Path,
-    interfaces: &mut [Interface],
+    interfaces: &mut [InterfaceDefinition],
 ) -> Result<Vec<String>, Error> {
     let mut notes = Vec::new();
     for interface in interfaces {
@@ -76,7 +76,7 @@ fn figures(name: &str, map: &Figures) -> String {
     )
 }
 
-fn note(interface: &Interface) -> String {
+fn note(interface: &InterfaceDefinition) -> String {
     let heights = &interface.relief;
     let n = heights.len() as f64;
     let mean = heights.iter().sum::<f64>() / n;
@@ -90,7 +90,7 @@ fn note(interface: &Interface) -> String {
 }
 
 /// Coordinates of all points along the axes of the surface.
-fn places(roughness: &Roughness, interface: &Interface) -> Vec<[f64; 2]> {
+fn places(roughness: &Roughness, interface: &InterfaceDefinition) -> Vec<[f64; 2]> {
     let points = &interface.points;
     let sum = points
         .iter()

@@ -1,5 +1,6 @@
 //! Points of secondary surfaces that are moved onto the primary before anything is computed.
 
+use crate::contact::look;
 use std::collections::BTreeMap;
 
 use super::super::Problem;
@@ -31,7 +32,7 @@ pub(super) fn add(
         }
         asked = true;
         let (mut count, mut largest) = (0, 0.0_f64);
-        for (point, by) in interface.snaps(start) {
+        for (point, by) in look::snaps(interface, start) {
             count += 1;
             largest = largest.max(norm(by));
             snapped.entry(point).or_insert(by);

@@ -7,7 +7,7 @@ use super::super::{BodyRotation, Problem};
 use super::fault::problem_error;
 use super::references::Said;
 use super::sets::Sets;
-use crate::contact::interface::Interface;
+use crate::contact::interface::InterfaceDefinition;
 use crate::error::{Diagnostic, Error};
 use crate::math::identity;
 use crate::mesh::Mesh;
@@ -63,7 +63,7 @@ pub(super) fn corotations(
 /// Tells the interfaces that bodies which turn take part in.
 pub(super) fn attach(
     (frames, corotations): (&Arc<BodyFrames>, &Corotations),
-    interfaces: &mut [Interface],
+    interfaces: &mut [InterfaceDefinition],
 ) -> Result<(), Error> {
     for interface in interfaces {
         let mut nodes = interface.nodes.iter();
@@ -91,7 +91,7 @@ pub(super) fn attach(
 /// those of the points of an elastic one half an increment behind, and a tie that is strained along the radius brakes both: a ring on a hub that was brought to 600 rad/s lost an eighth of its spin.
 pub(super) fn refuse_ties(
     (frames, corotations): (&BodyFrames, &Corotations),
-    interfaces: &[Interface],
+    interfaces: &[InterfaceDefinition],
     steps: &[Step],
 ) -> Result<(), Error> {
     let at_ends = |s: &&Step| {

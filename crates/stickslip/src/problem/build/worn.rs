@@ -3,6 +3,7 @@
 //! What a run wears off is added to gaps, to first order. Between two runs the depths become geometry: each point moves into its body along the normal of the surface as it was in that
 //! run, and depths count from zero again.
 
+use crate::contact::look;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -48,7 +49,7 @@ pub(super) fn add_round(
         let Some(depths) = depths else {
             return Err(wrong(format!("{} has no depths CWEAR", path.display())));
         };
-        let outward = interface.outward();
+        let outward = look::outward(interface);
         let points: Vec<usize> = outward.iter().map(|(p, _)| *p).collect();
         let mesh = &setup.model.mesh;
         let found = match_points(&points, mesh, &fields.points).map_err(|p| {

@@ -37,6 +37,7 @@ use super::finding::Finding;
 use super::surfaces::Opposite;
 use super::unjoined::Unjoined;
 use crate::assess::view::View;
+use crate::contact::look;
 use crate::model::definition::Model;
 use crate::model::scene::Scene;
 use measured::{Measured, measure};
@@ -98,7 +99,7 @@ pub(crate) fn examine(view: &View, unjoined: &Unjoined, gaps: &[Vec<f64>]) -> Ve
 pub(super) fn opposed(view: &View) -> Option<Finding> {
     let interfaces = view.contact.interfaces.iter();
     let mut found = interfaces.filter_map(|i| {
-        let measured = measure(i, &i.initial_gaps(), view.frame.state.t);
+        let measured = measure(i, &look::initial_gaps(i.view()), view.frame.state.t);
         normals::check(view, i, &measured)
     });
     found.next()

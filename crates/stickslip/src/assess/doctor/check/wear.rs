@@ -7,6 +7,7 @@ use super::common::{roles, sides};
 use crate::assess::view::View;
 use crate::contact::interface::{Interface, Primary};
 use crate::contact::law::wear::Feedback;
+use crate::contact::look;
 use crate::model::cycling::Jump;
 use crate::model::definition::Model;
 use crate::model::scene::Scene;
@@ -63,7 +64,7 @@ pub(crate) fn longest_way(model: &Model, interface: &Interface) -> Option<f64> {
         return None;
     }
     let shear = friction_coefficient(interface).unwrap_or(0.0);
-    interface.explicit_limit(modulus(model, interface)?, shear)
+    look::explicit_limit(interface.view(), modulus(model, interface)?, shear)
 }
 
 pub(super) fn check(view: &View, interface: &Interface) -> Option<Finding> {

@@ -8,10 +8,11 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use super::definition::{Interface, Primary};
-use super::initial::GLUE;
 use crate::contact::bounds::Bounds;
 use crate::contact::facet_point::{FACET_NODES, evaluate};
+use crate::contact::interface::Primary;
+use crate::contact::interface::initial::GLUE;
+use crate::contact::interface::view::ContactView;
 use crate::contact::projection::{Foot, facet_distance};
 use crate::contact::search::Tree;
 use crate::contact::surface::{Facet, Skin, hollows};
@@ -210,168 +211,181 @@ fn place(facet: &Facet, x: &[Vec3], reference: &[Vec3], xi: [f64; 2]) -> Place {
     }
 }
 
-impl Interface {
-    /// What lies between contact points at the last accepted state, with displacements `u` of the mesh points, at time `t`. Nothing of tied
-    /// surfaces, see [`opening`](Self::opening).
-    pub fn between(&self, u: &[f64], t: f64) -> Between {
-        if self.laws.tied || self.skin.is_empty() || !self.schedule.active(t) {
-            return Between::default();
+/// What lies between contact points at the last accepted state, with displacements `u` of the mesh points, at time `t`. Nothing of tied
+/// surfaces, see [`opening`].
+pub fn between(contact: ContactView, u: &[f64], t: f64) -> Between {
+    if contact.laws.tied || contact.skin.is_empty() || !contact.schedule.active(t) {
+        return Between::default();
+    }
+    let x = contact.coordinates(u);
+    let lowest = lowest(contact, &x, t);
+    let skin: Vec<&Facet> = contact.skin.iter().map(|s| &s.facet).collect();
+    compare(contact, &lowest, &hollows(&skin, &x), t)
+}
+
+/// By how much tied surfaces have come apart or slid at the last accepted state, with displacements `u` of the mesh points: the root of the mean square over places all over the
+/// secondary, each beside what lies opposite in the meshes, as near as what is glued `[m]`. Multipliers hold points or means over faces; what is between them may open.
+pub fn opening(contact: ContactView, u: &[f64]) -> f64 {
+    let (rest, facets) = (&contact.reference, contact.facets());
+    let theirs = Side::new(facets.iter().collect(), (Vec::new(), 0.0), rest, rest);
+    let within = contact.initial.within.unwrap_or(GLUE);
+    let glued = |&i: &usize| {
+        contact
+            .state
+            .start
+            .glued
+            .get(i)
+            .is_some_and(|g| !g.is_nan())
+    };
+    let x = contact.coordinates(u);
+    let of = |skin: &Skin, found: &mut Vec<usize>| {
+        let reach = within.of(cell_height(contact, skin));
+        let both = places(&skin.facet, rest, rest).zip(places(&skin.facet, &x, rest));
+        let squares = both.filter_map(|(before, now)| {
+            let (f, foot) = theirs.foot(&before, found)?;
+            let gap = dot(sub(before.x, foot.x), foot.normal);
+            let mut nodes = [[0.0; 3]; FACET_NODES];
+            let nodes = facets[f].gather(&x, &mut nodes);
+            let beneath = evaluate(facets[f].kind, nodes, foot.xi);
+            let place = add_scaled(beneath.x, gap, beneath.normal);
+            let moved = sub(now.x, place);
+            (gap.abs() <= reach).then(|| dot(moved, moved))
+        });
+        squares.fold((0.0, 0.0), |(sum, count), s| (sum + s, count + 1.0))
+    };
+    let sums: Vec<(f64, f64)> = (contact.skin.par_chunks(CHUNK))
+        .flat_map_iter(|skins| {
+            let mut found = Vec::new();
+            let held = skins.iter().filter(|s| s.points.iter().any(glued));
+            held.map(|skin| of(skin, &mut found)).collect::<Vec<_>>()
+        })
+        .collect();
+    let add = |a: (f64, f64), b: &(f64, f64)| (a.0 + b.0, a.1 + b.1);
+    let (sum, count) = sums.iter().fold((0.0, 0.0), add);
+    f64::sqrt(sum / f64::max(count, 1.0))
+}
+
+/// The same of the meshes, before anything has moved: depth of what overlaps.
+pub fn overlap_between(contact: ContactView, t: f64) -> f64 {
+    let lowest = lowest(contact, &contact.reference, t);
+    lowest.iter().fold(0.0, |m, g| m.max(-g))
+}
+
+/// The smallest gap found anywhere on each face of the secondary; infinite where nothing lies opposite.
+pub(super) fn lowest(contact: ContactView, x: &[Vec3], t: f64) -> Vec<f64> {
+    let mut lowest = vec![f64::INFINITY; contact.skin.len()];
+    match &contact.primary {
+        Primary::Rigid(shape, motion) => {
+            let pose = motion.pose(t);
+            for (lowest, skin) in lowest.iter_mut().zip(&contact.skin) {
+                for place in places(&skin.facet, x, &contact.reference) {
+                    let foot = shape.as_dyn().foot(pose.inward(place.x));
+                    *lowest = foot.map_or(*lowest, |foot| lowest.min(foot.gap));
+                }
+            }
         }
-        let x = self.coordinates(u);
-        let lowest = self.lowest(&x, t);
-        let skin: Vec<&Facet> = self.skin.iter().map(|s| &s.facet).collect();
-        self.compare(&lowest, &hollows(&skin, &x), t)
+        Primary::Facets(facets) => lowest_of_facets(contact, facets, x, &mut lowest),
     }
+    lowest
+}
 
-    /// By how much tied surfaces have come apart or slid at the last accepted state, with displacements `u` of the mesh points: the root of the mean square over places all over the
-    /// secondary, each beside what lies opposite in the meshes, as near as what is glued `[m]`. Multipliers hold points or means over faces; what is between them may open.
-    pub fn opening(&self, u: &[f64]) -> f64 {
-        let (rest, facets) = (&self.reference, self.facets());
-        let theirs = Side::new(facets.iter().collect(), (Vec::new(), 0.0), rest, rest);
-        let within = self.initial.within.unwrap_or(GLUE);
-        let glued = |&i: &usize| self.history.start.glued.get(i).is_some_and(|g| !g.is_nan());
-        let x = self.coordinates(u);
-        let of = |skin: &Skin, found: &mut Vec<usize>| {
-            let reach = within.of(self.size_of(skin));
-            let both = places(&skin.facet, rest, rest).zip(places(&skin.facet, &x, rest));
-            let squares = both.filter_map(|(before, now)| {
-                let (f, foot) = theirs.foot(&before, found)?;
-                let gap = dot(sub(before.x, foot.x), foot.normal);
-                let mut nodes = [[0.0; 3]; FACET_NODES];
-                let nodes = facets[f].gather(&x, &mut nodes);
-                let beneath = evaluate(facets[f].kind, nodes, foot.xi);
-                let place = add_scaled(beneath.x, gap, beneath.normal);
-                let moved = sub(now.x, place);
-                (gap.abs() <= reach).then(|| dot(moved, moved))
-            });
-            squares.fold((0.0, 0.0), |(sum, count), s| (sum + s, count + 1.0))
-        };
-        let sums: Vec<(f64, f64)> = (self.skin.par_chunks(CHUNK))
-            .flat_map_iter(|skins| {
-                let mut found = Vec::new();
-                let held = skins.iter().filter(|s| s.points.iter().any(glued));
-                held.map(|skin| of(skin, &mut found)).collect::<Vec<_>>()
-            })
-            .collect();
-        let add = |a: (f64, f64), b: &(f64, f64)| (a.0 + b.0, a.1 + b.1);
-        let (sum, count) = sums.iter().fold((0.0, 0.0), add);
-        f64::sqrt(sum / f64::max(count, 1.0))
-    }
-
-    /// The same of the meshes, before anything has moved: depth of what overlaps.
-    pub fn overlap_between(&self, t: f64) -> f64 {
-        let lowest = self.lowest(&self.reference, t);
-        lowest.iter().fold(0.0, |m, g| m.max(-g))
-    }
-
-    /// The smallest gap found anywhere on each face of the secondary; infinite where nothing lies opposite.
-    pub(super) fn lowest(&self, x: &[Vec3], t: f64) -> Vec<f64> {
-        let mut lowest = vec![f64::INFINITY; self.skin.len()];
-        match &self.primary {
-            Primary::Rigid(shape, motion) => {
-                let pose = motion.pose(t);
-                for (lowest, skin) in lowest.iter_mut().zip(&self.skin) {
-                    for place in places(&skin.facet, x, &self.reference) {
-                        let foot = shape.as_dyn().foot(pose.inward(place.x));
-                        *lowest = foot.map_or(*lowest, |foot| lowest.min(foot.gap));
+fn lowest_of_facets(contact: ContactView, facets: &[Facet], x: &[Vec3], lowest: &mut [f64]) {
+    let committed = contact.state.points.iter();
+    let deep = committed.fold(0.0_f64, |m, h| m.max(-h.gap));
+    let theirs = Side::new(
+        facets.iter().collect(),
+        (Vec::new(), deep),
+        x,
+        &contact.reference,
+    );
+    lowest
+        .par_chunks_mut(CHUNK)
+        .zip(contact.skin.par_chunks(CHUNK))
+        .for_each(|(lowest, skins)| {
+            let mut found = Vec::new();
+            for (lowest, skin) in lowest.iter_mut().zip(skins) {
+                for place in places(&skin.facet, x, &contact.reference) {
+                    if let Some((_, gap)) = theirs.gap(&place, &mut found) {
+                        *lowest = lowest.min(gap);
                     }
                 }
             }
-            Primary::Facets(facets) => self.lowest_of_facets(facets, x, &mut lowest),
-        }
-        lowest
+        });
+    let sizes = contact
+        .skin
+        .iter()
+        .map(|s| cell_height(contact, s))
+        .collect();
+    let ours = contact.skin.iter().map(|s| &s.facet).collect();
+    let ours = Side::new(ours, (sizes, deep), x, &contact.reference);
+    let corners = corners(facets, x, &contact.reference);
+    let gaps: Vec<Option<(usize, f64)>> = corners
+        .par_chunks(CHUNK)
+        .flat_map_iter(|corners| {
+            let mut found = Vec::new();
+            let gaps: Vec<_> = corners.iter().map(|c| ours.gap(c, &mut found)).collect();
+            gaps
+        })
+        .collect();
+    for (face, gap) in gaps.into_iter().flatten() {
+        lowest[face] = lowest[face].min(gap);
     }
+}
 
-    fn lowest_of_facets(&self, facets: &[Facet], x: &[Vec3], lowest: &mut [f64]) {
-        let committed = self.history.points.iter();
-        let deep = committed.fold(0.0_f64, |m, h| m.max(-h.gap));
-        let theirs = Side::new(
-            facets.iter().collect(),
-            (Vec::new(), deep),
-            x,
-            &self.reference,
-        );
-        lowest
-            .par_chunks_mut(CHUNK)
-            .zip(self.skin.par_chunks(CHUNK))
-            .for_each(|(lowest, skins)| {
-                let mut found = Vec::new();
-                for (lowest, skin) in lowest.iter_mut().zip(skins) {
-                    for place in places(&skin.facet, x, &self.reference) {
-                        if let Some((_, gap)) = theirs.gap(&place, &mut found) {
-                            *lowest = lowest.min(gap);
-                        }
-                    }
-                }
-            });
-        let sizes = self.skin.iter().map(|s| self.size_of(s)).collect();
-        let ours = self.skin.iter().map(|s| &s.facet).collect();
-        let ours = Side::new(ours, (sizes, deep), x, &self.reference);
-        let corners = corners(facets, x, &self.reference);
-        let gaps: Vec<Option<(usize, f64)>> = corners
-            .par_chunks(CHUNK)
-            .flat_map_iter(|corners| {
-                let mut found = Vec::new();
-                let gaps: Vec<_> = corners.iter().map(|c| ours.gap(c, &mut found)).collect();
-                gaps
-            })
-            .collect();
-        for (face, gap) in gaps.into_iter().flatten() {
-            lowest[face] = lowest[face].min(gap);
+/// Height of the cell beneath a face.
+fn cell_height(contact: ContactView, skin: &Skin) -> f64 {
+    let sizes = skin.points.iter().map(|&p| contact.points[p].size);
+    sizes.fold(f64::INFINITY, f64::min)
+}
+
+/// What was found, beside what the contact points say.
+fn compare(contact: ContactView, lowest: &[f64], hollows: &[f64], t: f64) -> Between {
+    let mut out = Between::default();
+    let committed = &contact.state.points;
+    if committed.len() != contact.points.len() {
+        return out;
+    }
+    let largest = contact
+        .reference
+        .iter()
+        .map(|&x| norm(x))
+        .fold(0.0, f64::max);
+    let rounding = 64.0 * f64::EPSILON * (largest + norm(contact.origin));
+    // Gaps of the meshes, with what the start of the interface takes off; a point that has nothing opposite says nothing.
+    let said = |i: usize| match committed[i].normal == [0.0; 3] {
+        true => f64::INFINITY,
+        false => committed[i].gap + contact.offset(i, t),
+    };
+    let mut around = vec![f64::INFINITY; contact.points.len()];
+    for ((skin, &least), &hollow) in contact.skin.iter().zip(lowest).zip(hollows) {
+        let wanted = skin.points.iter().map(|&p| said(p)).fold(0.0, f64::min);
+        // A straight face of a hollow surface lies within what it wraps, as chords do in a circle. That is no contact unseen: the surface that it stands for
+        // touches all along.
+        let deep = wanted - least - hollow - rounding;
+        if deep > 0.0 {
+            out.penetration = out.penetration.max(deep);
+            out.relative_to_size = out.relative_to_size.max(deep / cell_height(contact, skin));
+        }
+        for &p in &skin.points {
+            around[p] = around[p].min(least);
         }
     }
-
-    /// Height of the cell beneath a face.
-    fn size_of(&self, skin: &Skin) -> f64 {
-        let sizes = skin.points.iter().map(|&p| self.points[p].size);
-        sizes.fold(f64::INFINITY, f64::min)
-    }
-
-    /// What was found, beside what the contact points say.
-    fn compare(&self, lowest: &[f64], hollows: &[f64], t: f64) -> Between {
-        let mut out = Between::default();
-        let committed = &self.history.points;
-        if committed.len() != self.points.len() {
-            return out;
-        }
-        let largest = self.reference.iter().map(|&x| norm(x)).fold(0.0, f64::max);
-        let rounding = 64.0 * f64::EPSILON * (largest + norm(self.origin));
-        // Gaps of the meshes, with what the start of the interface takes off; a point that has nothing opposite says nothing.
-        let said = |i: usize| match committed[i].normal == [0.0; 3] {
-            true => f64::INFINITY,
-            false => committed[i].gap + self.offset(i, t),
-        };
-        let mut around = vec![f64::INFINITY; self.points.len()];
-        for ((skin, &least), &hollow) in self.skin.iter().zip(lowest).zip(hollows) {
-            let wanted = skin.points.iter().map(|&p| said(p)).fold(0.0, f64::min);
-            // A straight face of a hollow surface lies within what it wraps, as chords do in a circle. That is no contact unseen: the surface that it stands for
-            // touches all along.
-            let deep = wanted - least - hollow - rounding;
-            if deep > 0.0 {
-                out.penetration = out.penetration.max(deep);
-                out.relative_to_size = out.relative_to_size.max(deep / self.size_of(skin));
-            }
-            for &p in &skin.points {
-                around[p] = around[p].min(least);
+    // A mean over the corner of a face, where the other surface ends, is carried on to the node: what it presses with is the covered part of it.
+    let presses = |i: usize| {
+        let covered = contact.area_of(i) / (contact.points[i].area * contact.share);
+        committed[i].pressure.max(0.0) * covered.min(1.0)
+    };
+    let most = (0..committed.len()).map(presses).fold(0.0, f64::max);
+    // Each of two halves presses where the other one finds contact.
+    if most > 0.0 && contact.share == 1.0 {
+        for (i, around) in around.iter().enumerate() {
+            let apart = around - said(i) - rounding;
+            if apart.is_finite() && apart > 0.0 {
+                out.apart = out.apart.max(apart * presses(i) / most);
             }
         }
-        // A mean over the corner of a face, where the other surface ends, is carried on to the node: what it presses with is the covered part of it.
-        let presses = |i: usize| {
-            let covered = self.area_of(i) / (self.points[i].area * self.share);
-            committed[i].pressure.max(0.0) * covered.min(1.0)
-        };
-        let most = (0..committed.len()).map(presses).fold(0.0, f64::max);
-        // Each of two halves presses where the other one finds contact.
-        if most > 0.0 && self.share == 1.0 {
-            for (i, around) in around.iter().enumerate() {
-                let apart = around - said(i) - rounding;
-                if apart.is_finite() && apart > 0.0 {
-                    out.apart = out.apart.max(apart * presses(i) / most);
-                }
-            }
-        }
-        out
     }
+    out
 }
 
 /// The nodes of facets, each once, with normals that are means over the facets around it.

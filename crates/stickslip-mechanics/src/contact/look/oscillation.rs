@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::definition::Interface;
+use crate::contact::interface::view::ContactView;
 use crate::contact::surface::{ContactPoint, Facet};
 use crate::math::{Vec3, add, add_scaled, distance, dot, inverse, norm, scale, sub};
 
@@ -146,56 +146,58 @@ fn linear(places: &[Vec3]) -> Option<Vec<f64>> {
     (inside && norm(left) < 0.1 * size).then_some(weights)
 }
 
-impl Interface {
-    /// The oscillation index of the pressure `[-]`: the part of it that goes up and down from each point to the next, relative to its mean.
-    ///
-    /// At every point inside the contact (all its neighbours are in contact) the pressure is compared with that of a plane through its
-    /// neighbours: `d = p - p̂`. A smooth pressure is concave or convex over many points, `d` has the same sign there, and so do the flanks
-    /// of a singular one; where it oscillates the sign changes from each point to the next. What counts at a point is the smaller of
-    /// `|d|` there and at the neighbour of opposite sign, and the index is the sum of half of that over the sum of pressures, weighted by
-    /// areas: 1 for a checkerboard of zero and twice the mean, `a` for `p̄ (1 ± a)`, some 1e-3 or less for a Hertz pressure.
-    pub fn oscillation(&self) -> f64 {
-        let committed = &self.history.points;
-        if committed.len() != self.points.len() || self.neighbours.len() != self.points.len() {
-            return 0.0;
-        }
-        let at = |i: usize| self.points[i].position(&self.reference);
-        let pressure = |i: usize| committed[i].pressure;
-        let deviation: Vec<f64> = (0..self.points.len())
-            .map(|i| {
-                let beside = &self.neighbours[i];
-                let closed = pressure(i) > 0.0 && beside.iter().all(|&j| pressure(j) > 0.0);
-                if !closed {
-                    return 0.0;
-                }
-                let x = at(i);
-                let places: Vec<Vec3> = beside.iter().map(|&j| sub(at(j), x)).collect();
-                linear(&places).map_or(0.0, |weights| {
-                    let fit = beside.iter().zip(weights).map(|(&j, w)| w * pressure(j));
-                    pressure(i) - fit.sum::<f64>()
-                })
-            })
-            .collect();
-        let (mut swing, mut all) = (0.0, 0.0);
-        for (i, &d) in deviation.iter().enumerate() {
-            let area = self.area_of(i);
-            let against = |&j: &usize| match d * deviation[j] < 0.0 {
-                true => d.abs().min(deviation[j].abs()),
-                false => 0.0,
-            };
-            let most = self.neighbours[i].iter().map(against).fold(0.0, f64::max);
-            swing += 0.5 * area * most;
-            all += area * pressure(i).max(0.0);
-        }
-        if all > 0.0 { swing / all } else { 0.0 }
+/// The oscillation index of the pressure `[-]`: the part of it that goes up and down from each point to the next, relative to its mean.
+///
+/// At every point inside the contact (all its neighbours are in contact) the pressure is compared with that of a plane through its
+/// neighbours: `d = p - p̂`. A smooth pressure is concave or convex over many points, `d` has the same sign there, and so do the flanks
+/// of a singular one; where it oscillates the sign changes from each point to the next. What counts at a point is the smaller of
+/// `|d|` there and at the neighbour of opposite sign, and the index is the sum of half of that over the sum of pressures, weighted by
+/// areas: 1 for a checkerboard of zero and twice the mean, `a` for `p̄ (1 ± a)`, some 1e-3 or less for a Hertz pressure.
+pub fn oscillation(contact: ContactView) -> f64 {
+    let committed = &contact.state.points;
+    if committed.len() != contact.points.len() || contact.neighbours.len() != contact.points.len() {
+        return 0.0;
     }
+    let at = |i: usize| contact.points[i].position(&contact.reference);
+    let pressure = |i: usize| committed[i].pressure;
+    let deviation: Vec<f64> = (0..contact.points.len())
+        .map(|i| {
+            let beside = &contact.neighbours[i];
+            let closed = pressure(i) > 0.0 && beside.iter().all(|&j| pressure(j) > 0.0);
+            if !closed {
+                return 0.0;
+            }
+            let x = at(i);
+            let places: Vec<Vec3> = beside.iter().map(|&j| sub(at(j), x)).collect();
+            linear(&places).map_or(0.0, |weights| {
+                let fit = beside.iter().zip(weights).map(|(&j, w)| w * pressure(j));
+                pressure(i) - fit.sum::<f64>()
+            })
+        })
+        .collect();
+    let (mut swing, mut all) = (0.0, 0.0);
+    for (i, &d) in deviation.iter().enumerate() {
+        let area = contact.area_of(i);
+        let against = |&j: &usize| match d * deviation[j] < 0.0 {
+            true => d.abs().min(deviation[j].abs()),
+            false => 0.0,
+        };
+        let most = contact.neighbours[i]
+            .iter()
+            .map(against)
+            .fold(0.0, f64::max);
+        swing += 0.5 * area * most;
+        all += area * pressure(i).max(0.0);
+    }
+    if all > 0.0 { swing / all } else { 0.0 }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::history::PointHistory;
-    use super::super::tests::sample;
     use super::*;
+    use crate::contact::interface::history::PointHistory;
+    use crate::contact::interface::tests::sample;
+    use crate::contact::interface::{Interface, InterfaceDefinition};
     use crate::contact::kinematics::KinematicsModel;
     use crate::shape::ElementKind;
 
@@ -230,12 +232,12 @@ mod tests {
                 across: Default::default(),
             })
             .collect();
-        let mut interface = Interface {
+        let mut interface = Interface::new(InterfaceDefinition {
             neighbours: neighbours(&points, &facets, &reference),
             nodes: (0..reference.len()).collect(),
             points,
-            ..sample(ElementKind::Quad4, KinematicsModel::default())
-        };
+            ..sample(ElementKind::Quad4, KinematicsModel::default()).definition
+        });
         let inner = &interface.neighbours[SIDE + 1];
         assert_eq!(*inner, [1, SIDE, SIDE + 2, 2 * SIDE + 1]);
         let history = reference.iter().enumerate().map(|(k, x)| PointHistory {
@@ -243,8 +245,8 @@ mod tests {
             ..PointHistory::default()
         });
         interface.history.points = history.collect();
-        interface.reference = reference;
-        interface.oscillation()
+        interface.definition.reference = reference;
+        oscillation(interface.view())
     }
 
     #[test]

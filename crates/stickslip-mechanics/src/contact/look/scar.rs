@@ -1,0 +1,96 @@
+//! How far what is worn off goes beyond first order: a scar is added to gaps, and the surfaces themselves stay as they are.
+
+use super::wear::ground_scar;
+use std::collections::HashMap;
+
+use crate::contact::facet_point::evaluate;
+use crate::contact::interface::Primary;
+use crate::contact::interface::view::ContactView;
+use crate::contact::surface::{Facet, spacing};
+use crate::math::{Vec3, cross, dot, norm, scale, sub};
+
+/// Cosine of the angle between faces from which they meet at an edge, which is no curvature.
+const EDGE: f64 = 0.9;
+
+/// The deepest and the steepest of what is worn off, each beside what it has to be small against.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Scar {
+    /// Largest slope of the depth along the surface `[-]`.
+    pub slope: f64,
+    /// Largest depth times the curvature of the surface it was worn off, as it was meshed `[-]`.
+    pub curved: f64,
+}
+
+/// How far wear goes beyond first order; `None` where nothing is worn off that contact feels.
+pub fn scar(contact: ContactView) -> Option<Scar> {
+    if !contact.laws.wears_away() {
+        return None;
+    }
+    let mut depths = vec![0.0; contact.nodes.len()];
+    for (depth, trace) in depths.iter_mut().zip(&contact.state.traces) {
+        *depth = trace[1];
+    }
+    for (h, p) in contact.state.points.iter().zip(&contact.points) {
+        if let Some(node) = p.node() {
+            depths[node] = h.worn;
+        }
+    }
+    let own: Vec<&Facet> = contact.skin.iter().map(|s| &s.facet).collect();
+    let theirs: Vec<&Facet> = match &contact.primary {
+        Primary::Facets(facets) => facets.iter().collect(),
+        Primary::Rigid(..) => Vec::new(),
+    };
+    let sides = [own, theirs].map(|facets| scar_of(contact, &facets, &depths));
+    let [a, b] = sides;
+    let [slope, curved] = ground_scar(contact);
+    Some(Scar {
+        slope: a.slope.max(b.slope).max(slope),
+        curved: a.curved.max(b.curved).max(curved),
+    })
+}
+
+fn scar_of(contact: ContactView, facets: &[&Facet], depths: &[f64]) -> Scar {
+    let mut scar = Scar::default();
+    // Normal and centre of the faces around each node.
+    let mut around: HashMap<usize, Vec<(Vec3, Vec3)>> = HashMap::new();
+    for facet in facets {
+        let nodes: Vec<Vec3> = facet.nodes.iter().map(|&n| contact.reference[n]).collect();
+        let [s, t, _] = facet.kind.centre();
+        let at = evaluate(facet.kind, &nodes, [s, t]);
+        let across = cross(at.a[0], at.a[1]);
+        let normal = scale(1.0 / norm(across), across);
+        for (k, &a) in facet.nodes.iter().enumerate() {
+            around.entry(a).or_default().push((normal, at.x));
+            for (l, &b) in facet.nodes.iter().enumerate().skip(k + 1) {
+                let way = norm(sub(nodes[k], nodes[l]));
+                scar.slope = scar.slope.max((depths[a] - depths[b]).abs() / way);
+            }
+        }
+    }
+    for (node, faces) in around {
+        for (i, (n, x)) in faces.iter().enumerate() {
+            for (m, y) in &faces[i + 1..] {
+                if dot(*n, *m) > EDGE {
+                    let curvature = norm(sub(*n, *m)) / norm(sub(*x, *y));
+                    scar.curved = scar.curved.max(depths[node] * curvature);
+                }
+            }
+        }
+    }
+    scar
+}
+
+/// The longest way `[m]` that an increment may slide, times the cycles that it stands for, where what is worn off is felt from the next one on: a wave of the surface as
+/// short as the mesh has it, of compliance `2 Δx / (π E*)`, is stable up to `4 Δx / (π k E*)`. `modulus`: the plane modulus of both bodies together `[Pa]`; `shear`: the
+/// shear over the pressure. `None` where nothing is worn off.
+pub fn explicit_limit(contact: ContactView, modulus: f64, shear: f64) -> Option<f64> {
+    let rates = contact.laws.wear.as_dyn().fastest();
+    let rate: f64 = rates.iter().map(|r| r.per_path(shear)).sum();
+    let facets = contact
+        .skin
+        .iter()
+        .map(|s| spacing(&s.facet, &contact.reference));
+    let finest = facets.fold(f64::INFINITY, f64::min);
+    let limit = 4.0 * finest / (std::f64::consts::PI * rate * modulus);
+    (limit.is_finite() && contact.laws.wears_away()).then_some(limit)
+}

@@ -1,0 +1,98 @@
+//! What sliding has worn off both surfaces, and what it has taken.
+
+use crate::contact::interface::view::ContactView;
+
+/// What sliding has worn off both surfaces.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct WearReport {
+    /// Largest depth on the secondary and on the primary `[m]`.
+    pub depth: [f64; 2],
+    /// Volume lost by the secondary and by the primary `[m³]`.
+    pub volume: [f64; 2],
+}
+
+/// What the ground has lost: its largest depth `[m]` and the volume that the depths make up `[m³]`; `None` where there is none.
+pub(super) fn ground_lost(contact: ContactView) -> Option<[f64; 2]> {
+    let ground = contact.hollows.ground.as_ref()?;
+    let places = contact.state.ground.places.iter();
+    Some(
+        places.fold([0.0, 0.0], |[deepest, volume], (place, depth)| {
+            let area = ground.chart.area(*place, ground.extent);
+            [f64::max(deepest, *depth), volume + depth * area]
+        }),
+    )
+}
+
+/// The steepest slope of the ground, and its largest depth times its curvature, as it was made.
+pub(super) fn ground_scar(contact: ContactView) -> [f64; 2] {
+    let Some(ground) = &contact.hollows.ground else {
+        return [0.0; 2];
+    };
+    let places = &contact.state.ground.places;
+    let mut worst = [0.0_f64; 2];
+    for (&place, depth) in places {
+        worst[1] = worst[1].max(depth * ground.chart.curvature());
+        for (next, way) in ground.chart.next(place) {
+            let other = places.get(&next).filter(|_| way > 0.0);
+            worst[0] = other.map_or(worst[0], |o| worst[0].max((depth - o).abs() / way));
+        }
+    }
+    worst
+}
+
+/// Depth and volume of wear so far; `None` where it is not followed.
+pub fn wear(contact: ContactView) -> Option<WearReport> {
+    if !contact.laws.wear.as_dyn().active() {
+        return None;
+    }
+    let secondary = contact.state.points.iter().map(|h| h.worn);
+    let nodes = contact.state.traces.iter().map(|t| t[1]);
+    let ground = ground_lost(contact).map_or(0.0, |[deepest, _]| deepest);
+    let mut report = WearReport {
+        depth: [secondary.fold(0.0, f64::max), nodes.fold(ground, f64::max)],
+        volume: contact.state.worn,
+    };
+    if contact.exchanged {
+        report.depth.reverse();
+        report.volume.reverse();
+    }
+    Some(report)
+}
+
+/// Volume that the depths of both sides make up, that with the points first `[m³]`: what the laws say has been lost, to rounding.
+pub fn hollowed(contact: ContactView) -> [f64; 2] {
+    let points = contact.state.points.iter().zip(&contact.points);
+    let own = points.map(|(h, p)| h.worn * p.area * contact.share).sum();
+    if let Some([_, volume]) = ground_lost(contact) {
+        return [own, volume];
+    }
+    let depths = contact.state.traces.iter().zip(&contact.hollows.area);
+    [own, depths.map(|(t, area)| t[1] * area).sum()]
+}
+
+/// What sliding has taken so far, place by place: volumes of both sides where one of them wears `[m³]`, otherwise energies `[J]`.
+pub fn taken(contact: ContactView) -> Vec<f64> {
+    let points = contact.state.points.iter().zip(&contact.points);
+    if !contact.wears() {
+        return points
+            .map(|(h, p)| h.dissipated * p.area * contact.share)
+            .collect();
+    }
+    let own = points.map(|(h, p)| h.worn * p.area * contact.share);
+    let depths = contact.state.traces.iter().zip(&contact.hollows.area);
+    let nodes = depths.map(|(t, area)| t[1] * area);
+    own.chain(nodes)
+        .chain(contact.state.ground.taken.iter().copied())
+        .collect()
+}
+
+/// The places of [`taken`] where something wears: whether they are on the primary, and their areas `[m²]`.
+pub fn wear_places(contact: ContactView) -> Vec<(bool, f64)> {
+    let areas = || contact.points.iter().map(|p| p.area * contact.share);
+    let own = areas().map(|area| (false, area));
+    let nodes = contact.state.traces.iter().zip(&contact.hollows.area);
+    let nodes = nodes.map(|(_, area)| (true, *area));
+    own.chain(nodes)
+        .chain(areas().map(|area| (true, area)))
+        .collect()
+}
