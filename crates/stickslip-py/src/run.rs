@@ -463,11 +463,10 @@ impl Simulation {
 
     /// Columns of the table of an interface by name.
     fn contact(&self, name: &str) -> PyResult<Vec<(String, Array)>> {
-        let contact = &self.simulation.contact;
-        let Some(interface) = contact.interfaces.iter().find(|i| i.name == name) else {
+        let Some(interface) = self.simulation.view().contacts().find(|i| i.name == name) else {
             return Err(PyKeyError::new_err(no_interface(name, &self.interfaces())));
         };
-        let (names, columns) = look::table(interface.view(), &self.simulation.frame.state.u);
+        let (names, columns) = look::table(interface, &self.simulation.frame.state.u);
         let columns = columns.into_iter().map(|c| {
             let shape = vec![c.len()];
             Array::floats(c, shape)

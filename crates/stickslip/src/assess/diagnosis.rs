@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::doctor::Finding;
 use super::view::View;
-use crate::contact::interface::Interface;
+use crate::contact::interface::InterfaceDefinition;
 use crate::error::RunError;
 use crate::math::add;
 use crate::model::contact::Contact;
@@ -208,7 +208,7 @@ impl View<'_> {
     }
 }
 
-fn inspect(interface: &Interface, gaps: &[f64]) -> InterfaceReport {
+fn inspect(interface: &InterfaceDefinition, gaps: &[f64]) -> InterfaceReport {
     let mut finite: Vec<(f64, usize)> = gaps.iter().copied().zip(0..).collect();
     finite.retain(|(gap, _)| gap.is_finite());
     finite.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -6,7 +6,7 @@
 
 use super::doctor::{DoctorCause, Finding, Guilty, Opposite, Severity, body_at, let_go};
 use super::view::View;
-use crate::contact::interface::{Interface, Primary};
+use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::contact::law::friction::FrictionPoint;
 use crate::error::RunError;
 use crate::math::{
@@ -284,7 +284,7 @@ impl View<'_> {
     }
 
     /// Adds the places of an interface where contact may push free motions; the smallest gap. `None` where that cannot be told.
-    fn spots(&self, interface: &Interface, t: f64, holds: &mut Holds) -> Option<f64> {
+    fn spots(&self, interface: &InterfaceDefinition, t: f64, holds: &mut Holds) -> Option<f64> {
         let facing = match &interface.primary {
             Primary::Facets(facets) => Some(interface.nodes[facets.first()?.nodes[0]]),
             Primary::Rigid(..) => None,
@@ -364,7 +364,7 @@ fn tangents(normal: Vec3, dim: usize) -> Vec<Vec3> {
 }
 
 /// The largest coefficient of friction of an interface, whatever the pressure and speed; `None` where it is not known, or not limited by pressure.
-fn largest_friction(interface: &Interface) -> Option<f64> {
+fn largest_friction(interface: &InterfaceDefinition) -> Option<f64> {
     let law = interface.laws.friction_law();
     if interface.laws.user.any() {
         return None;

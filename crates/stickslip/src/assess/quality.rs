@@ -11,7 +11,7 @@ use super::figures::{
     Track, UNSEEN_TO_APPROACH, UNSEEN_TO_SIZE,
 };
 use super::view::View;
-use crate::contact::interface::Interface;
+use crate::contact::interface::ContactView;
 use crate::contact::look::{Between, Quality};
 use crate::math::{Vec3, norm};
 use crate::model::definition::Model;
@@ -222,8 +222,8 @@ fn ratio(value: f64, scale: f64) -> f64 {
 impl View<'_> {
     /// Elastic energy of bodies and compliant interfaces `[J]`.
     pub(super) fn elastic_energy(&self) -> f64 {
-        let interfaces = self.contact.interfaces.iter();
-        let compliant = interfaces.map(|i| look::law_energy(i.view())).sum::<f64>();
+        let interfaces = self.contacts();
+        let compliant = interfaces.map(|i| look::law_energy(i)).sum::<f64>();
         self.frame.ledger.strain + compliant
     }
 
@@ -266,8 +266,8 @@ impl View<'_> {
     /// Takes note of what interfaces do.
     pub(crate) fn watch(&self, watches: &mut [Watch]) {
         let (u, t) = (&self.frame.state.u, self.frame.state.t);
-        for (watch, interface) in watches.iter_mut().zip(&self.contact.interfaces) {
-            watch.note(interface, &look::resultant(interface.view(), u), (u, t));
+        for (watch, interface) in watches.iter_mut().zip(self.contacts()) {
+            watch.note(interface, &look::resultant(interface, u), (u, t));
         }
     }
 
@@ -278,13 +278,9 @@ impl View<'_> {
             energy if energy > self.rounded_energy() => energy,
             _ => 0.0,
         };
-        let tied = self.contact.interfaces.iter();
-        let tied = tied.filter_map(|i| {
-            Some((
-                format!("interface {}", i.name),
-                look::tie_spring_energy(i.view())?,
-            ))
-        });
+        let tied = self.contacts();
+        let tied = tied
+            .filter_map(|i| Some((format!("interface {}", i.name), look::tie_spring_energy(i)?)));
         let coupled = self.contact.couplings.spring_energies().into_iter();
         let coupled = coupled.map(|(name, stored)| (format!("coupling {name}"), stored));
         for (place, stored) in tied.chain(coupled) {
@@ -293,9 +289,9 @@ impl View<'_> {
         }
         let ways = self.model.bodies.iter().map(|body| self.way(body));
         let way = ways.fold(0.0, f64::max);
-        for interface in &self.contact.interfaces {
-            let q = look::quality(interface.view());
-            let r = look::resultant(interface.view(), &self.frame.state.u);
+        for (acting, interface) in self.contact.interfaces.iter().zip(self.contacts()) {
+            let q = look::quality(interface);
+            let r = look::resultant(interface, &self.frame.state.u);
             let place = format!("interface {}", interface.name);
             let whole = 2.0 * energy / r.carried.max(f64::MIN_POSITIVE);
             let approach = match r.carried > 0.0 {
@@ -304,23 +300,23 @@ impl View<'_> {
             };
             if interface.laws.tied && approach > 0.0 {
                 let pair = [
-                    look::opening(interface.view(), &self.frame.state.u),
+                    look::opening(interface, &self.frame.state.u),
                     approach.min(way),
                 ];
                 gate.note_in_motion(&TIE_OPENING, &place, pair, limits.tie_opening, t);
             }
-            let between = look::between(interface.view(), &self.frame.state.u, t);
+            let between = look::between(interface, &self.frame.state.u, t);
             judge_between(interface, (between, approach), limits, (gate, &place, t));
             if r.carried <= 0.0 {
                 continue;
             }
-            if look::on_springs(interface.view()) && !interface.laws.tied {
+            if look::on_springs(interface) && !interface.laws.tied {
                 let pair = [0.5 * q.violation_work, energy];
                 let limit = limits.explicit_penetration;
                 gate.note_in_motion(&EXPLICIT_PENETRATION, &place, pair, limit, t);
             }
             let mut note = |kind, pair, limit| gate.note(kind, &place, pair, limit, t);
-            if !look::on_springs(interface.view()) {
+            if !look::on_springs(interface) {
                 let size = [q.relative_to_size, 1.0];
                 let bridged = [q.complementarity * q.pressed, q.pressed];
                 note(&PENETRATION_TO_SIZE, size, limits.penetration_to_size);
@@ -340,18 +336,18 @@ impl View<'_> {
             let mut note = |kind, pair, limit| gate.note(kind, &place, pair, limit, t);
             let uneven = [q.oscillation * r.total, r.total];
             note(&OSCILLATION, uneven, limits.oscillation);
-            if let Some(limit) = longest_way(self.model, interface) {
-                let way = [look::slid(interface), limit];
+            if let Some(limit) = longest_way(self.model, &interface) {
+                let way = [look::slid(acting), limit];
                 note(&EXPLICIT_WEAR, way, limits.explicit_wear);
             }
-            if let Some(pair) = look::false_shear(interface.view(), &self.frame.state.u) {
+            if let Some(pair) = look::false_shear(interface, &self.frame.state.u) {
                 note(&FALSE_SHEAR, pair, limits.false_shear);
             }
             let excess = [q.excess_shear * q.limit, q.limit];
             note(&EXCESS_SHEAR, excess, limits.excess_shear);
             let wrong = [q.friction_law * q.limit, q.limit];
             note(&FRICTION_LAW, wrong, limits.friction_law);
-            let b = look::balance(interface.view(), &self.frame.state.u);
+            let b = look::balance(interface, &self.frame.state.u);
             if b.scale > 0.0 {
                 let force = [norm(b.force), b.scale];
                 let moment = [norm(b.moment), b.scale * b.size];
@@ -407,7 +403,7 @@ impl View<'_> {
 
 /// Judges what lies between the points of an interface whose bodies have come nearer elastically by `approach`.
 fn judge_between(
-    interface: &Interface,
+    interface: ContactView,
     (between, approach): (Between, f64),
     limits: &Limits,
     (gate, place, t): (&mut Gate, &str, f64),
@@ -415,7 +411,7 @@ fn judge_between(
     let mut missed = between.penetration.max(between.apart);
     if approach == 0.0 && missed > 0.0 {
         // Facets of curved surfaces may overlap in the meshes where nothing presses.
-        missed = (missed - look::overlap_between(interface.view(), t)).max(0.0);
+        missed = (missed - look::overlap_between(interface, t)).max(0.0);
     }
     if missed > 0.0 || approach > 0.0 {
         let size = [between.relative_to_size, 1.0];
@@ -512,16 +508,16 @@ pub struct NumericalStiffness {
 /// The interfaces at the last accepted state.
 pub(crate) fn interfaces(view: &View, gate: &Gate, watches: &[Watch]) -> Vec<InterfaceSummary> {
     let energy = view.elastic_energy();
-    let all = view.contact.interfaces.iter().zip(watches);
+    let all = view.contacts().zip(watches);
     all.map(|(interface, watch)| {
-        let quality = look::quality(interface.view());
-        let r = look::resultant(interface.view(), &view.frame.state.u);
-        let b = look::balance(interface.view(), &view.frame.state.u);
+        let quality = look::quality(interface);
+        let r = look::resultant(interface, &view.frame.state.u);
+        let b = look::balance(interface, &view.frame.state.u);
         let place = format!("interface {}", interface.name);
         let floor = |kind| gate.floor(kind, &place);
         let strain = view.frame.ledger.strain;
         let whole = 2.0 * strain / r.carried.max(f64::MIN_POSITIVE);
-        let factor = look::numerical_factor(interface.view());
+        let factor = look::numerical_factor(interface);
         let tied = interface.laws.tied;
         InterfaceSummary {
             name: interface.name.clone(),
@@ -534,8 +530,8 @@ pub(crate) fn interfaces(view: &View, gate: &Gate, watches: &[Watch]) -> Vec<Int
             normal_force: r.normal,
             shear_force: r.shear,
             area: r.area,
-            points: (!tied).then(|| look::committed_tally(interface.view()).into()),
-            friction_work: (!tied).then(|| look::energy(interface.view()).dissipated),
+            points: (!tied).then(|| look::committed_tally(interface).into()),
+            friction_work: (!tied).then(|| look::energy(interface).dissipated),
             quality,
             relative_to_approach: ratio(quality.penetration, whole),
             action_reaction: ratio(norm(b.force), b.scale.max(floor(&ACTION_REACTION))),

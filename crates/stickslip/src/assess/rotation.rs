@@ -4,7 +4,7 @@ use super::figures::ROTATION_TO_APPROACH;
 use super::missed::{Turned, missed_gaps};
 use super::quality::Gate;
 use super::view::View;
-use crate::contact::interface::Interface;
+use crate::contact::interface::ContactView;
 use crate::contact::look;
 use crate::math::{Vec3, dot};
 use crate::model::limits::Limits;
@@ -24,15 +24,15 @@ impl View<'_> {
             false => vec![None; turns.len()],
         };
         let energy = self.elastic_energy();
-        for interface in &self.contact.interfaces {
+        for interface in self.contacts() {
             let place = format!("interface {}", interface.name);
-            let r = look::resultant(interface.view(), &self.frame.state.u);
+            let r = look::resultant(interface, &self.frame.state.u);
             if r.carried <= 0.0 {
                 continue;
             }
             let missed = self.missed(interface, &turned);
             // Beside the elastic approach, as penetration is; both sides times the force.
-            let elastic = (2.0 * energy).max(r.carried * look::quality(interface.view()).layer);
+            let elastic = (2.0 * energy).max(r.carried * look::quality(interface).layer);
             let pair = [missed * r.carried, elastic];
             let limit = limits.rotation_to_approach;
             match self.inertia().is_some() || self.explicit.is_some() {
@@ -43,11 +43,11 @@ impl View<'_> {
     }
 
     /// The mean of what is missed of the gap where an interface presses `[m]`.
-    fn missed(&self, interface: &Interface, turned: &[Option<Turned>]) -> f64 {
+    fn missed(&self, interface: ContactView, turned: &[Option<Turned>]) -> f64 {
         if turned.iter().all(Option::is_none) {
             return 0.0;
         }
-        let points = look::pressing(interface.view());
+        let points = look::pressing(interface);
         let of = |point: Option<usize>| turned[self.body_of(point?)?].as_ref();
         let sides: Vec<_> = points.iter().map(|p| p.sides.map(of)).collect();
         let missed = missed_gaps(&points, &sides);

@@ -157,8 +157,8 @@ impl View<'_> {
     }
 
     fn smallest_gaps(&self) -> String {
-        let gaps = self.contact.interfaces.iter().map(|i| {
-            let smallest = look::initial_gaps(i.view())
+        let gaps = self.contacts().map(|i| {
+            let smallest = look::initial_gaps(i)
                 .into_iter()
                 .fold(f64::INFINITY, f64::min);
             format!("{}: {smallest:.3e}", i.name)

@@ -400,7 +400,7 @@ impl Implicit {
         let dt = trial.to - trial.from;
         let smallest = model.steps[frame.step].increments.smallest;
         let interfaces = contact.interfaces.iter();
-        let switched: usize = interfaces.map(|interface| look::switched(interface)).sum();
+        let switched: usize = interfaces.map(look::switched).sum();
         if switched > 0 && dt > tolerance && 0.5 * dt >= smallest {
             return Err(StepFailure::new(
                 Cause::Event,

@@ -1,8 +1,9 @@
 //! What is evaluated in every iteration: interfaces and couplings, with all that they remember.
 
 use super::definition::Step;
-use crate::body::couplings::Couplings;
-use crate::contact::interface::Interface;
+use super::frame::Frame;
+use crate::body::couplings::{Couplings, CouplingsMemory};
+use crate::contact::interface::{ContactView, History, Interface};
 use crate::system::{Force, Stage, State};
 
 /// Interfaces and couplings: where bodies touch and what ties their points.
@@ -22,6 +23,29 @@ impl Contact {
             forces.push(&mut self.couplings);
         }
         forces
+    }
+
+    /// The interfaces after the increment of a frame, as those see them who only look.
+    pub fn views<'a>(&'a self, frame: &'a Frame) -> impl ExactSizeIterator<Item = ContactView<'a>> {
+        let interfaces = self.interfaces.iter().enumerate();
+        interfaces.map(|(k, interface)| ContactView {
+            definition: &interface.definition,
+            state: frame.contacts.get(k).unwrap_or(&interface.history),
+        })
+    }
+
+    /// What interfaces and couplings have been through.
+    pub(crate) fn memory(&self) -> (Vec<History>, CouplingsMemory) {
+        let histories = self.interfaces.iter().map(|i| i.history.clone());
+        (histories.collect(), self.couplings.memory.clone())
+    }
+
+    /// Lets them go on from that.
+    pub(crate) fn go_on_from(&mut self, (histories, couplings): (Vec<History>, CouplingsMemory)) {
+        for (interface, history) in self.interfaces.iter_mut().zip(histories) {
+            interface.history = history;
+        }
+        self.couplings.memory = couplings;
     }
 
     /// Tells all of them that an attempt is accepted.

@@ -6,6 +6,7 @@ use super::course::Course;
 use super::cycling::Block;
 use super::kick::Kick;
 use super::ledger::EnergyLedger;
+use crate::contact::interface::History;
 use crate::fatigue::Record;
 use crate::system::State;
 
@@ -18,6 +19,8 @@ pub struct Frame {
     pub state: State,
     /// Internal minus external forces `[N]`: reactions where supported.
     pub forces: Vec<f64>,
+    /// Histories of the interfaces after this increment where those that wait for their report have taken them farther; empty where their own are these.
+    pub contacts: Vec<History>,
     /// What interfaces and couplings add to the residual `[N]`.
     pub contact: Vec<f64>,
     /// External forces `[N]`.
@@ -57,6 +60,7 @@ crate::keep!(Frame {
     step,
     state,
     forces,
+    contacts,
     contact,
     load,
     coupled,

@@ -1,5 +1,6 @@
 //! What is simulated and where it stands.
 
+use crate::contact::interface::ContactView;
 use crate::contact::look;
 use std::borrow::Cow;
 
@@ -21,6 +22,11 @@ pub struct Scene<'a> {
 }
 
 impl<'a> Scene<'a> {
+    /// The interfaces as they were after the increment.
+    pub fn contacts(&self) -> impl ExactSizeIterator<Item = ContactView<'a>> + use<'a> {
+        self.contact.views(self.frame)
+    }
+
     /// Constraints at a time.
     pub(crate) fn constraints(&self, t: f64) -> Constraints {
         self.frame.constraints(self.model, t)
@@ -186,7 +192,7 @@ impl<'a> Scene<'a> {
     /// Whether a body is in contact at the last accepted state.
     pub(crate) fn touches(&self, body: usize) -> bool {
         let points = &self.model.bodies[body].points;
-        let mut all = self.contact.interfaces.iter().filter(|i| !i.laws.tied);
-        all.any(|i| look::touched(i.view()) && i.nodes.iter().any(|n| points.contains(n)))
+        let mut all = self.contacts().filter(|i| !i.laws.tied);
+        all.any(|i| look::touched(i) && i.nodes.iter().any(|n| points.contains(n)))
     }
 }

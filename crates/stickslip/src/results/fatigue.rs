@@ -170,10 +170,10 @@ pub(crate) fn follow(
         stresses.extend(lot.places.iter().flat_map(|&i| all[i]));
     }
     record.stress.push(stresses);
-    let interfaces = view.contact.interfaces.iter();
+    let interfaces = view.contacts();
     record
         .rubbed
-        .push(interfaces.flat_map(|i| look::rubbing(i.view())).collect());
+        .push(interfaces.flat_map(|i| look::rubbing(i)).collect());
     if !cycles.ends(since) {
         return Vec::new();
     }

@@ -173,27 +173,22 @@ impl ResultFiles {
         self.count += 1;
         let mesh = self.mesh(view);
         let fields = fields(view);
-        let interfaces = view.contact.interfaces.iter();
+        let interfaces = view.contacts();
         let (u, time) = (&view.frame.state.u, view.frame.state.t);
         let tables: Vec<(String, csv::Table, Sheet)> = interfaces
             .map(|interface| {
-                let (names, columns) = look::table(interface.view(), u);
+                let (names, columns) = look::table(interface, u);
                 let table = csv::Table { names, columns };
                 (
                     interface.name.clone(),
                     table,
-                    look::sheet(interface.view(), u, time),
+                    look::sheet(interface, u, time),
                 )
             })
             .collect();
-        let opposite = view.contact.interfaces.iter();
+        let opposite = view.contacts();
         let opposite: Vec<(String, Sheet)> = opposite
-            .filter_map(|i| {
-                Some((
-                    format!("{}{OPPOSITE}", i.name),
-                    look::opposite_sheet(i.view(), u)?,
-                ))
-            })
+            .filter_map(|i| Some((format!("{}{OPPOSITE}", i.name), look::opposite_sheet(i, u)?)))
             .collect();
         let parts = tables.iter().map(|(name, ..)| name);
         let parts = parts.chain(opposite.iter().map(|(name, _)| name));
@@ -395,8 +390,8 @@ pub fn fields(view: &View) -> Fields {
         body.fields(&strained, &mut fields);
     }
     view.turn_tensors(&mut fields);
-    for interface in &view.contact.interfaces {
-        look::fields(interface.view(), &mut fields);
+    for interface in view.contacts() {
+        look::fields(interface, &mut fields);
     }
     fatigue::add_fields(view, &mut fields);
     fields

@@ -97,8 +97,8 @@ pub(crate) fn row(
         row.push(REST, share.rest);
     }
     let dim = view.model.dofs.dim;
-    for interface in &view.contact.interfaces {
-        let r = look::resultant(interface.view(), &view.frame.state.u);
+    for interface in view.contacts() {
+        let r = look::resultant(interface, &view.frame.state.u);
         push_resultant(&mut row, &interface.name, &r, dim);
         // Tied surfaces pull as well as they press, and do not slide.
         let (name, tied) = (&interface.name, interface.laws.tied);
@@ -107,12 +107,9 @@ pub(crate) fn row(
             r.peak,
         );
         if !tied {
-            row.push(
-                format!("{name}.ALLFD"),
-                look::energy(interface.view()).dissipated,
-            );
+            row.push(format!("{name}.ALLFD"), look::energy(interface).dissipated);
         }
-        if let Some(wear) = look::wear(interface.view()) {
+        if let Some(wear) = look::wear(interface) {
             let [own, other] = wear.depth;
             row.push(format!("{}.CWEARMAX", interface.name), own.max(other));
             let volume = wear.volume[0] + wear.volume[1];

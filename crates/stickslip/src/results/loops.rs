@@ -5,7 +5,7 @@
 
 use super::history::Row;
 use crate::assess::view::View;
-use crate::contact::interface::Interface;
+use crate::contact::interface::ContactView;
 use crate::contact::look;
 use crate::math::{Vec3, add_scaled, dot, norm, sub};
 use crate::model::cycling::Block;
@@ -97,7 +97,7 @@ fn mean(view: &View, shares: &[f64], body: &Body) -> Vec3 {
 }
 
 /// How far one body has moved over the other, by their means.
-fn displacement(view: &View, shares: &[f64], interface: &Interface) -> Vec3 {
+fn displacement(view: &View, shares: &[f64], interface: ContactView) -> Vec3 {
     let (primary, secondary) = interface.nodes.split_at(interface.primary_nodes);
     let of = |nodes: &[usize]| {
         let node = *nodes.first()?;
@@ -120,13 +120,13 @@ pub(crate) fn follow(view: &View, shares: &[f64], loops: &mut [Loop], trial: Tri
     let since = [trial.from - step.start, trial.to - step.start];
     let cycles = step.cycles;
     let begins = cycles.is_none_or(|c| c.begins(since[0]));
-    for (interface, at) in view.contact.interfaces.iter().zip(&mut *loops) {
+    for (interface, at) in view.contacts().zip(&mut *loops) {
         if begins {
             at.begin(trial.from <= step.start);
         }
         at.go_on(view, shares, interface);
         if cycles.is_none() {
-            at.start = look::energy(interface.view()).dissipated;
+            at.start = look::energy(interface).dissipated;
         }
     }
     let cycles = cycles.filter(|c| c.ends(since))?;
@@ -147,8 +147,8 @@ impl Loop {
         };
     }
 
-    fn go_on(&mut self, view: &View, shares: &[f64], interface: &Interface) {
-        let force = look::resultant(interface.view(), &view.frame.state.u);
+    fn go_on(&mut self, view: &View, shares: &[f64], interface: ContactView) {
+        let force = look::resultant(interface, &view.frame.state.u);
         let displacement = displacement(view, shares, interface);
         // Across the resultant of the pressure: on a curved surface shear has a part along it.
         let along = dot(force.shear, force.normal) / dot(force.normal, force.normal);
@@ -161,7 +161,7 @@ impl Loop {
         self.displacement.take_in(displacement);
         self.pressed = self.pressed.max(force.total);
         self.peak = self.peak.max(force.peak);
-        let [sliding, touching] = look::sliding_area(interface.view());
+        let [sliding, touching] = look::sliding_area(interface);
         if touching > 0.0 {
             self.sliding = self.sliding.max(sliding / touching);
         }
@@ -175,8 +175,8 @@ fn row(view: &View, loops: &mut [Loop], t: f64, block: Block) -> Row {
     row.push("TIME", t);
     row.push("CYCLES", (block.before + block.stands_for) as f64);
     row.push("STANDS", block.stands_for as f64);
-    for (interface, at) in view.contact.interfaces.iter().zip(loops) {
-        let dissipated = look::energy(interface.view()).dissipated;
+    for (interface, at) in view.contacts().zip(loops) {
+        let dissipated = look::energy(interface).dissipated;
         let energy = dissipated - at.start;
         at.start = dissipated;
         at.sum += energy * block.stands_for as f64;
@@ -203,7 +203,7 @@ fn row(view: &View, loops: &mut [Loop], t: f64, block: Block) -> Row {
         push("SLIDING", at.sliding);
         push("CONDITION", condition);
         push("CPRESSMAX", at.peak);
-        if let Some(wear) = look::wear(interface.view()) {
+        if let Some(wear) = look::wear(interface) {
             push("CWEARVOL", wear.volume[0] + wear.volume[1]);
             push("CWEARMAX", wear.depth[0].max(wear.depth[1]));
         }

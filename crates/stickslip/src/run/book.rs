@@ -63,11 +63,7 @@ pub(crate) fn ledger_after(
         thermal: model.thermal_energy(at.t, &at.u),
         ..accepted.flow
     };
-    let interfaces: Vec<_> = contact
-        .interfaces
-        .iter()
-        .map(|i| look::energy(i.view()))
-        .collect();
+    let interfaces: Vec<_> = contact.views(frame).map(|i| look::energy(i)).collect();
     let mut ledger = frame.ledger;
     let before = ledger.of_interfaces();
     let energies = [accepted.kinetic, accepted.strain + stored];

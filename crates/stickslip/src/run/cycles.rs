@@ -43,8 +43,8 @@ impl Simulation {
 
     /// What sliding has taken, by interface and place.
     fn taken(&self) -> Vec<Vec<f64>> {
-        let interfaces = self.contact.interfaces.iter();
-        interfaces.map(|i| look::taken(i.view())).collect()
+        let interfaces = self.contact.views(&self.frame);
+        interfaces.map(|i| look::taken(i)).collect()
     }
 
     /// Begins a block where one is to begin; the analysis stands between two increments.
@@ -285,9 +285,9 @@ impl Simulation {
 
     /// Where interfaces wear.
     fn places(&self) -> Vec<Vec<Place>> {
-        let interfaces = self.contact.interfaces.iter();
+        let interfaces = self.contact.views(&self.frame);
         let wearing = interfaces.map(|i| match i.wears() {
-            true => look::wear_places(i.view()),
+            true => look::wear_places(i),
             false => Vec::new(),
         });
         wearing.collect()

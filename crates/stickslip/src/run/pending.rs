@@ -5,10 +5,8 @@ use std::time::Instant;
 
 use super::book::book;
 use super::simulation::{Simulation, view};
-use crate::body::couplings::CouplingsMemory;
-use crate::contact::interface::History;
+use crate::contact::look;
 use crate::error::Error;
-use crate::model::contact::Contact;
 use crate::newton::Progress;
 use crate::results::fatigue;
 use crate::results::history;
@@ -43,18 +41,12 @@ impl Simulation {
             }
             return self.report(pending, observers);
         };
-        let before = self.pending.is_empty().then(|| {
-            let interfaces = contact.interfaces.iter();
-            let histories = interfaces.map(|i| i.history.clone()).collect();
-            (histories, contact.couplings.memory.clone())
-        });
+        let before = self.pending.is_empty().then(|| contact.memory());
         contact.commit(&accepted.stage(&condensed.state, *trial));
         pending.before = before;
         pending.found = solver.move_ahead(&mut pending.accepted, pending.trial);
         pending.seen = solver.seen.take();
-        let interfaces = contact.interfaces.iter();
-        pending.histories = interfaces.map(|i| i.history.clone()).collect();
-        pending.couplings = contact.couplings.memory.clone();
+        (pending.histories, pending.couplings) = contact.memory();
         self.pending.push(pending);
         if last || self.pending.len() >= TOGETHER {
             self.recover_pending();
@@ -78,11 +70,9 @@ impl Simulation {
         let unknown = pending.iter_mut();
         let unknown = unknown.filter_map(|p| Some((p.found.as_ref()?, &mut p.accepted)));
         self.solver.recover(unknown);
-        // The interfaces tell what they knew after each of them.
-        let interfaces = self.contact.interfaces.iter_mut();
+        // Couplings tell what they knew after each of them.
         self.recovered = Some(Recovered {
             queue: pending.into(),
-            now: interfaces.map(|i| std::mem::take(&mut i.history)).collect(),
             coupled: std::mem::take(&mut self.contact.couplings.memory),
         });
     }
@@ -99,9 +89,13 @@ impl Simulation {
         if let Some(mut one) = recovered.queue.pop_front() {
             let histories = std::mem::take(&mut one.histories);
             let couplings = std::mem::take(&mut one.couplings);
-            let before = self.exchange((histories, couplings));
+            let before = (
+                std::mem::replace(&mut self.frame.contacts, histories),
+                std::mem::replace(&mut self.contact.couplings.memory, couplings),
+            );
             if let Err(failure) = self.complete(&mut one) {
-                self.exchange(one.before.take().unwrap_or(before));
+                self.frame.contacts.clear();
+                self.contact.go_on_from(one.before.take().unwrap_or(before));
                 if failure.cause == Cause::Engine {
                     self.pending.clear();
                     return Err(failure.at(self.frame.state.t).into());
@@ -111,29 +105,12 @@ impl Simulation {
             outcome = self.report(one, observers);
         }
         if recovered.queue.is_empty() || outcome.is_err() {
-            self.exchange((recovered.now, recovered.coupled));
+            self.frame.contacts.clear();
+            self.contact.couplings.memory = recovered.coupled;
         } else {
             self.recovered = Some(recovered);
         }
         outcome.map(|()| true)
-    }
-
-    /// Lets interfaces and couplings know this; what they knew.
-    pub(super) fn exchange(
-        &mut self,
-        (histories, couplings): (Vec<History>, CouplingsMemory),
-    ) -> (Vec<History>, CouplingsMemory) {
-        let Contact {
-            interfaces,
-            couplings: now,
-            ..
-        } = &mut self.contact;
-        let known = interfaces.iter_mut().zip(histories);
-        let known = known.map(|(i, history)| std::mem::replace(&mut i.history, history));
-        (
-            known.collect(),
-            std::mem::replace(&mut now.memory, couplings),
-        )
     }
 
     /// Completes an increment whose interior has been found.
@@ -205,9 +182,15 @@ impl Simulation {
 
     /// Tells observers that fields are due.
     pub(super) fn put_out(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        let views = self.contact.views(&self.frame);
         let State { u, t, .. } = &self.frame.state;
-        for interface in &mut self.contact.interfaces {
-            interface.measure(u, *t);
+        let interfaces = self.contact.interfaces.iter().zip(views);
+        let gaps = interfaces.map(|(i, view)| look::excluded_gaps(view, &i.directives, u, *t));
+        let gaps: Vec<_> = gaps.collect();
+        let known = &mut self.frame.contacts;
+        for (k, (interface, gaps)) in self.contact.interfaces.iter_mut().zip(gaps).enumerate() {
+            let history = known.get_mut(k).unwrap_or(&mut interface.history);
+            history.note_gaps(&gaps);
         }
         self.tell(observers, || Event::Output)
     }

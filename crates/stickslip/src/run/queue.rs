@@ -84,19 +84,13 @@ crate::keep!(Pending {
     before,
     found
 });
-crate::keep!(Recovered {
-    queue,
-    now,
-    coupled
-});
+crate::keep!(Recovered { queue, coupled });
 
 /// Increments whose interiors are known, on their way to the observers.
 #[derive(Clone)]
 pub(crate) struct Recovered {
     pub(super) queue: VecDeque<Pending>,
-    /// The histories of the interfaces after the last of them.
-    pub(super) now: Vec<History>,
-    /// And the couplings.
+    /// What the couplings knew after the last of them.
     pub(super) coupled: CouplingsMemory,
 }
 

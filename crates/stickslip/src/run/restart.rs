@@ -30,10 +30,10 @@ impl Simulation {
 
     /// The same with another working state than that of now.
     pub(super) fn checkpoint_with(&self, working: Working) -> Checkpoint {
-        let interfaces = self.contact.interfaces.iter();
+        let (histories, _) = self.contact.memory();
         Checkpoint {
             frame: self.frame.clone(),
-            histories: interfaces.map(|i| i.history.clone()).collect(),
+            histories,
             position: Position {
                 next: self.steps.next,
                 running: (self.steps.running.as_ref()).map(Increments::standing),

@@ -91,8 +91,7 @@ impl Simulation {
             + 4 * mesh.points.len()
             + of_mesh.sum::<usize>();
         let state = &view.frame.state;
-        let surfaces =
-            (view.contact.interfaces.iter()).map(|i| look::sheet(i.view(), &state.u, state.t));
+        let surfaces = view.contacts().map(|i| look::sheet(i, &state.u, state.t));
         let surfaces = surfaces.map(|s| {
             let values = s.fields.all.iter().map(|f| f.values.len());
             // Coordinates and numbers of points, pieces of quadratic faces.

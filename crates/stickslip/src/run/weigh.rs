@@ -42,11 +42,7 @@ impl Simulation {
         if self.step().dynamic.is_none() {
             return Ok(accepted);
         }
-        let before = self.is_weighed().then(|| {
-            let interfaces = self.contact.interfaces.iter();
-            let histories = interfaces.map(|i| i.history.clone()).collect();
-            (histories, self.contact.couplings.memory.clone())
-        });
+        let before = self.is_weighed().then(|| self.contact.memory());
         let stage = accepted.stage(&self.frame.state, trial);
         self.contact.commit(&stage);
         if let Some(before) = before {
@@ -56,7 +52,7 @@ impl Simulation {
             let smallest = 0.5 * length < self.step().increments.smallest;
             let was_vain = running.vain;
             if running.is_to_halve(length, (opened, may), resolved, smallest) {
-                self.exchange(before);
+                self.contact.go_on_from(before);
                 let message = format!(
                     "the balance of energies opens by {opened:.3e} over the increment, more than its share of what the limit leaves"
                 );

@@ -47,10 +47,8 @@ struct Diary {
 
 /// Pressures of the interface.
 fn pressures(simulation: &View) -> Vec<f64> {
-    let table = look::table(
-        simulation.contact.interfaces[0].view(),
-        &simulation.frame.state.u,
-    );
+    let interface = simulation.contacts().next().expect("there is one");
+    let table = look::table(interface, &simulation.frame.state.u);
     table.1[4].clone()
 }
 

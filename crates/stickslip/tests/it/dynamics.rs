@@ -868,7 +868,7 @@ dynamic.scheme.hht.alpha = -0.05
         loop {
             let view = simulation.view();
             let u = &view.frame.state.u;
-            let said = look::resultant(view.contact.interfaces[0].view(), u);
+            let said = look::resultant(view.contacts().next().expect("there is one"), u);
             let fields = stickslip::results::fields(&view);
             let force = &fields
                 .all

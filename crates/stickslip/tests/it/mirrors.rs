@@ -19,7 +19,7 @@ impl Observer for End {
             return Ok(());
         };
         let (names, columns) = look::table(
-            analysis.contact.interfaces[0].view(),
+            analysis.contacts().next().expect("there is one"),
             &analysis.frame.state.u,
         );
         let wanted = ["x", "y", "z", "CPRESS", "CSHEAR1", "CSHEAR2"].map(|name| {

@@ -35,8 +35,8 @@ impl Observer for Diary {
                 let mut state = bits(&frame.state.u);
                 state.extend(bits(&frame.state.v));
                 state.extend(bits(&frame.forces));
-                for interface in &analysis.contact.interfaces {
-                    for column in look::table(interface.view(), &frame.state.u).1 {
+                for interface in analysis.contacts() {
+                    for column in look::table(interface, &frame.state.u).1 {
                         state.extend(bits(&column));
                     }
                 }

@@ -1,9 +1,10 @@
 //! Which points an interface looks at: those that may come into contact soon.
 
 use super::candidates::{closest_of_all, update_candidates};
-use super::definition::Primary;
+use super::definition::{InterfaceDefinition, Primary};
 use super::parts::Interface;
 use super::search::Search;
+use super::view::ContactView;
 use crate::contact::kinematics::mean_gap;
 use crate::contact::response::Status;
 use crate::contact::search::Tree;
@@ -123,94 +124,62 @@ impl Interface {
             .any(|(e, &inner)| !inner && e.response.status != Status::Open)
     }
 
-    /// The number of points that do not take part although they penetrate the primary at displacements `u`.
-    pub fn overlooked(&self, u: &[f64], t: f64) -> usize {
-        if self.directives.excluded.is_empty() {
-            return 0;
-        }
-        let x = self.coordinates(u);
-        let span = CandidateRange {
-            distance: 0.0,
-            along: 0.0,
-            span: [t, t],
-        };
-        let excluded = &self.directives.excluded;
-        let gaps = self.gaps(&x, span);
-        let smallest = |i: usize| -1e-9 * self.points[i].size;
-        (0..excluded.len())
-            .filter(|&i| excluded[i] && gaps[i] < smallest(i))
-            .count()
-    }
-
-    /// Finds the gaps of points that do not take part, for reports of the state with displacements `u` at time `t`.
-    pub fn measure(&mut self, u: &[f64], t: f64) {
-        if self.directives.excluded.is_empty() {
-            return;
-        }
-        let x = self.coordinates(u);
-        let here = CandidateRange {
-            distance: 0.0,
-            along: 0.0,
-            span: [t, t],
-        };
-        let gaps = self.gaps(&x, here);
-        let points = self.history.points.iter_mut().zip(gaps);
-        for ((history, gap), excluded) in points.zip(&self.directives.excluded) {
-            if *excluded {
-                history.gap = gap;
-            }
-        }
-    }
-
     /// Distances from the primary, whatever side of it.
     fn distances(&self, x: &[Vec3], range: CandidateRange) -> Vec<f64> {
-        self.gaps(x, range)
+        gaps(self.view(), x, range)
             .into_iter()
             .map(|g| g.max(0.0))
             .collect()
     }
+}
 
-    /// The smallest gaps over the span; infinite where a point does not face the primary.
-    fn gaps(&self, x: &[Vec3], range: CandidateRange) -> Vec<f64> {
-        let gaps = self.distances_to_primary(x, range);
-        let end = range.span[1];
-        let gaps = gaps.into_iter().enumerate();
-        gaps.map(|(i, gap)| gap - self.view().offset(i, end))
-            .collect()
-    }
+/// The smallest gaps over the span; infinite where a point does not face the primary.
+pub(in crate::contact) fn gaps(
+    contact: ContactView,
+    x: &[Vec3],
+    range: CandidateRange,
+) -> Vec<f64> {
+    let gaps = distances_to_primary(contact.definition, x, range);
+    let end = range.span[1];
+    let gaps = gaps.into_iter().enumerate();
+    gaps.map(|(i, gap)| gap - contact.offset(i, end)).collect()
+}
 
-    fn distances_to_primary(&self, x: &[Vec3], range: CandidateRange) -> Vec<f64> {
-        match &self.primary {
-            Primary::Rigid(shape, motion) => {
-                let [from, to] = range.span;
-                let poses: Vec<_> = (0..POSES)
-                    .map(|k| motion.pose(from + (to - from) * k as f64 / (POSES - 1) as f64))
-                    .collect();
-                let gap = |p: &ContactPoint| {
-                    let gaps = poses
-                        .iter()
-                        .filter_map(|pose| mean_gap(shape.as_dyn(), pose, p, x));
-                    gaps.fold(f64::INFINITY, f64::min)
-                };
-                self.points.iter().map(gap).collect()
-            }
-            Primary::Facets(_) => {
-                // A search of its own: what is asked here must leave no trace in what is computed.
-                let mut search = Search::default();
-                update_candidates(&self.definition, &mut search, x);
-                let found = closest_of_all(&self.definition, x, &search)
-                    .into_iter()
-                    .enumerate();
-                found
-                    .map(|(i, found)| match found {
-                        Ok((_, foot)) => {
-                            let away = sub(self.points[i].position(x), foot.x);
-                            dot(away, foot.normal)
-                        }
-                        Err(distance) => distance,
-                    })
-                    .collect()
-            }
+fn distances_to_primary(
+    definition: &InterfaceDefinition,
+    x: &[Vec3],
+    range: CandidateRange,
+) -> Vec<f64> {
+    match &definition.primary {
+        Primary::Rigid(shape, motion) => {
+            let [from, to] = range.span;
+            let poses: Vec<_> = (0..POSES)
+                .map(|k| motion.pose(from + (to - from) * k as f64 / (POSES - 1) as f64))
+                .collect();
+            let gap = |p: &ContactPoint| {
+                let gaps = poses
+                    .iter()
+                    .filter_map(|pose| mean_gap(shape.as_dyn(), pose, p, x));
+                gaps.fold(f64::INFINITY, f64::min)
+            };
+            definition.points.iter().map(gap).collect()
+        }
+        Primary::Facets(_) => {
+            // A search of its own: what is asked here must leave no trace in what is computed.
+            let mut search = Search::default();
+            update_candidates(definition, &mut search, x);
+            let found = closest_of_all(definition, x, &search)
+                .into_iter()
+                .enumerate();
+            found
+                .map(|(i, found)| match found {
+                    Ok((_, foot)) => {
+                        let away = sub(definition.points[i].position(x), foot.x);
+                        dot(away, foot.normal)
+                    }
+                    Err(distance) => distance,
+                })
+                .collect()
         }
     }
 }

@@ -47,7 +47,7 @@ pub struct InterfaceDefinition {
     pub mortar: Option<Mortar>,
     /// The faces of the secondary, to be looked at between points; empty where nobody asks.
     pub skin: Vec<Skin>,
-    /// For each of the points the others beside it, see [`neighbours`](super::neighbours); empty where nobody asks how smooth the pressure is.
+    /// For each of the points the others beside it, see [`neighbours`](crate::contact::look::neighbours); empty where nobody asks how smooth the pressure is.
     pub neighbours: Vec<Vec<usize>>,
     /// What they touch.
     pub primary: Primary,

@@ -136,6 +136,15 @@ impl History {
         }
     }
 
+    /// Takes note of the gaps `[m]` of points that do not take part.
+    pub fn note_gaps(&mut self, gaps: &[(usize, f64)]) {
+        for &(i, gap) in gaps {
+            if let Some(point) = self.points.get_mut(i) {
+                point.gap = gap;
+            }
+        }
+    }
+
     /// Whether it can be that of an interface with so many points.
     pub fn fits(&self, points: usize) -> bool {
         self.points.is_empty() || self.points.len() == points

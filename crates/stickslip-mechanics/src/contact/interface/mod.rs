@@ -11,7 +11,7 @@ mod axles;
 mod beginning;
 mod belt;
 mod cache;
-mod candidate_range;
+pub(super) mod candidate_range;
 pub(super) mod candidates;
 mod change;
 mod clamped;

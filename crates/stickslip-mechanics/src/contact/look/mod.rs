@@ -2,6 +2,7 @@
 //! last evaluation gets the interface as a shared reference.
 
 mod between;
+mod excluded;
 mod fields;
 mod frequency;
 mod last;
@@ -27,6 +28,7 @@ mod wear;
 pub use super::interface::energies::{energy, law_energy, stored_by_point};
 pub use super::interface::symptoms::evidence;
 pub use between::{Between, between, opening, overlap_between};
+pub use excluded::{excluded_gaps, overlooked};
 pub use fields::{fields, rubbing};
 pub use frequency::{highest_frequency, highest_rate, pressed_frequency};
 pub use last::{slid, statuses, switched, touches};

@@ -4,8 +4,8 @@ use super::wear::ground_scar;
 use std::collections::HashMap;
 
 use crate::contact::facet_point::evaluate;
-use crate::contact::interface::Primary;
 use crate::contact::interface::view::ContactView;
+use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::contact::surface::{Facet, spacing};
 use crate::math::{Vec3, cross, dot, norm, scale, sub};
 
@@ -83,14 +83,14 @@ fn scar_of(contact: ContactView, facets: &[&Facet], depths: &[f64]) -> Scar {
 /// The longest way `[m]` that an increment may slide, times the cycles that it stands for, where what is worn off is felt from the next one on: a wave of the surface as
 /// short as the mesh has it, of compliance `2 Δx / (π E*)`, is stable up to `4 Δx / (π k E*)`. `modulus`: the plane modulus of both bodies together `[Pa]`; `shear`: the
 /// shear over the pressure. `None` where nothing is worn off.
-pub fn explicit_limit(contact: ContactView, modulus: f64, shear: f64) -> Option<f64> {
-    let rates = contact.laws.wear.as_dyn().fastest();
+pub fn explicit_limit(definition: &InterfaceDefinition, modulus: f64, shear: f64) -> Option<f64> {
+    let rates = definition.laws.wear.as_dyn().fastest();
     let rate: f64 = rates.iter().map(|r| r.per_path(shear)).sum();
-    let facets = contact
+    let facets = definition
         .skin
         .iter()
-        .map(|s| spacing(&s.facet, &contact.reference));
+        .map(|s| spacing(&s.facet, &definition.reference));
     let finest = facets.fold(f64::INFINITY, f64::min);
     let limit = 4.0 * finest / (std::f64::consts::PI * rate * modulus);
-    (limit.is_finite() && contact.laws.wears_away()).then_some(limit)
+    (limit.is_finite() && definition.laws.wears_away()).then_some(limit)
 }

@@ -11,7 +11,7 @@ use super::signs::{prescribed_slip, signs, too_large_slip};
 use super::surfaces::Opposite;
 use super::{balance, coupling};
 use crate::assess::view::View;
-use crate::contact::interface::Interface;
+use crate::contact::interface::ContactView;
 use crate::contact::look;
 use crate::contact::response::Status;
 use crate::error::RunError;
@@ -272,8 +272,8 @@ fn free_mode(view: &View, trial: &Trial, free: &[FloatingBody], how: &str) -> Fi
         let remark = format!("{} {how}", l.motion);
         finding = finding.blame(places::body(model, &l.body, remark));
     }
-    for interface in &view.contact.interfaces {
-        let Some((i, gap)) = smallest_gap(interface, trial.from) else {
+    for (interface, accepted) in view.contact.interfaces.iter().zip(view.contacts()) {
+        let Some((i, gap)) = smallest_gap(accepted, trial.from) else {
             continue;
         };
         let e = look::evidence(interface, i);
@@ -346,14 +346,14 @@ fn driven(finding: Finding, view: &View, body: usize, trial: &Trial) -> Finding 
 }
 
 /// The point nearest to the primary at the last accepted state, or as meshed where there is none, and its gap.
-fn smallest_gap(interface: &Interface, t: f64) -> Option<(usize, f64)> {
-    let accepted = look::initial_gaps(interface.view());
+fn smallest_gap(interface: ContactView, t: f64) -> Option<(usize, f64)> {
+    let accepted = look::initial_gaps(interface);
     let finite = accepted.into_iter().enumerate();
     let accepted = finite.filter(|(_, g)| g.is_finite());
     if let Some(found) = accepted.min_by(|a, b| a.1.total_cmp(&b.1)) {
         return Some(found);
     }
-    let mut opposite = Opposite::new(interface, t);
+    let mut opposite = Opposite::new(interface.definition, t);
     let gaps = interface.points.iter().enumerate().filter_map(|(i, p)| {
         let nearest = opposite.nearest(p.position(&interface.reference))?;
         Some((i, nearest.gap))

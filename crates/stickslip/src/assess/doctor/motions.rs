@@ -3,7 +3,7 @@
 use super::surfaces::Opposite;
 use crate::assess::view::View;
 use crate::contact::facet_point::evaluate;
-use crate::contact::interface::{Interface, Primary};
+use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::contact::response::Status;
 use crate::math::{Vec3, symmetric_eigen};
 use crate::model::unheld::{self, Mode};
@@ -90,7 +90,7 @@ pub(super) fn floating(view: &View, t: f64, rows: &[Row]) -> Vec<FloatingBody> {
 
 /// What a point of an interface resists: the motion along its normal, and all of it where it sticks.
 pub(super) fn rows(
-    interface: &Interface,
+    interface: &InterfaceDefinition,
     opposite: &mut Opposite,
     (i, normal, status): (usize, Vec3, Status),
     out: &mut Vec<Row>,

@@ -3,7 +3,7 @@
 use super::cause::DoctorCause;
 use super::finding::{Finding, Guilty, Severity};
 use crate::assess::view::View;
-use crate::contact::interface::{Interface, Primary};
+use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::math::{Vec3, add_scaled, dot, norm, sub};
 use crate::system::Evidence;
 use crate::time::Trial;
@@ -92,7 +92,7 @@ pub(super) fn prescribed_slip(view: &View, trial: &Trial) -> Option<(f64, String
     let model = view.model;
     let constraints = view.constraints(trial.to);
     let before = view.constraints(trial.from);
-    let moved = |local: usize, interface: &Interface| -> Option<Vec3> {
+    let moved = |local: usize, interface: &InterfaceDefinition| -> Option<Vec3> {
         let point = interface.nodes[local];
         let body = model.bodies.iter().find(|b| b.points.contains(&point))?;
         // The mean over the supported points of its body.

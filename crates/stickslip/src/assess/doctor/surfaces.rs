@@ -1,7 +1,7 @@
 //! How the two sides of an interface lie to each other, apart from any law.
 
 use crate::contact::facet_point::evaluate;
-use crate::contact::interface::{Interface, Primary};
+use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::contact::projection::{Patch, facet_distance};
 use crate::contact::search::Tree;
 use crate::contact::surface::Facet;
@@ -28,21 +28,21 @@ pub(crate) struct Nearest {
 
 /// The facets of an interface, to be asked for many points.
 pub(crate) struct Opposite<'a> {
-    interface: &'a Interface,
+    interface: &'a InterfaceDefinition,
     tree: Tree,
     found: Vec<usize>,
     time: f64,
 }
 
 /// Coordinates of the nodes of a facet in the reference configuration.
-pub(super) fn coordinates(interface: &Interface, facet: &Facet) -> Vec<Vec3> {
+pub(super) fn coordinates(interface: &InterfaceDefinition, facet: &Facet) -> Vec<Vec3> {
     let nodes = facet.nodes.iter();
     nodes.map(|&n| interface.reference[n]).collect()
 }
 
 impl<'a> Opposite<'a> {
     /// At time `time`, which matters to obstacles that move.
-    pub fn new(interface: &'a Interface, time: f64) -> Self {
+    pub fn new(interface: &'a InterfaceDefinition, time: f64) -> Self {
         let tree = match &interface.primary {
             Primary::Facets(facets) => {
                 let x = |n: &usize| interface.reference[*n];
@@ -124,7 +124,7 @@ fn within(kind: ElementKind, [a, b]: [f64; 2]) -> [f64; 2] {
 }
 
 /// A length of a facet: half of it where it has nodes on its edges.
-pub(super) fn spacing(interface: &Interface, facet: &Facet) -> f64 {
+pub(super) fn spacing(interface: &InterfaceDefinition, facet: &Facet) -> f64 {
     let x = coordinates(interface, facet);
     let order = facet.kind.order().max(1) as f64;
     let corners = match (facet.kind.dim(), x.len()) {

@@ -6,7 +6,8 @@ use serde::Serialize;
 use super::cause::DoctorCause;
 use super::finding::{Finding, Guilty, Severity, What};
 use crate::assess::view::View;
-use crate::contact::interface::Interface;
+use crate::contact::interface::ContactView;
+use crate::contact::interface::InterfaceDefinition;
 use crate::contact::look::{Resolution, Resultant};
 use crate::math::Vec3;
 use crate::model::Body;
@@ -68,7 +69,7 @@ impl Watch {
     }
 
     /// Looks at the last accepted state, of which `r` are the forces.
-    pub fn note(&mut self, interface: &Interface, r: &Resultant, (u, t): (&[f64], f64)) {
+    pub fn note(&mut self, interface: ContactView, r: &Resultant, (u, t): (&[f64], f64)) {
         let force = r.carried;
         if r.peak > (1.0 + LARGER) * self.peak.value {
             self.peak = Peak {
@@ -78,26 +79,26 @@ impl Watch {
             };
         }
         self.acted |= interface.schedule.active(t);
-        let turn = look::normals_turned(interface.view(), u);
+        let turn = look::normals_turned(interface, u);
         if turn > self.turn {
             self.turn = turn;
             self.turned_at = t;
         }
         if force > NEXT_TO_NOTHING * self.force {
             self.carried_at = t;
-            self.carriers = look::closed(interface.view());
+            self.carriers = look::closed(interface);
         }
         if force > self.force {
             self.force = force;
             self.time = t;
-            self.resolution = look::resolution(interface.view());
+            self.resolution = look::resolution(interface);
         }
     }
 }
 
 /// What there is to say at the end of a run.
 pub(crate) fn watched(view: &View, watches: &[Watch]) -> Vec<Finding> {
-    let interfaces = view.contact.interfaces.iter();
+    let interfaces = view.contacts();
     let pairs = interfaces.zip(watches);
     let nothing = NOTHING * view.strain_force();
     let mut out = strained(view);
@@ -108,14 +109,14 @@ pub(crate) fn watched(view: &View, watches: &[Watch]) -> Vec<Finding> {
                 // One half of a pair may be idle where the other one carries.
                 false if interface.share < 1.0 => [None, None, None, None],
                 false => [
-                    Some(never_carried(interface, view.model.moves())),
+                    Some(never_carried(&interface, view.model.moves())),
                     None,
                     None,
                     None,
                 ],
                 true => [
-                    coarse(interface, watch),
-                    turned(interface, watch),
+                    coarse(&interface, watch),
+                    turned(&interface, watch),
                     deep(interface),
                     left(view, interface, watch),
                 ],
@@ -150,7 +151,7 @@ fn strained(view: &View) -> Vec<Finding> {
     strained.collect()
 }
 
-fn turned(interface: &Interface, watch: &Watch) -> Option<Finding> {
+fn turned(interface: &InterfaceDefinition, watch: &Watch) -> Option<Finding> {
     if watch.turn <= TURNED {
         return None;
     }
@@ -175,8 +176,8 @@ fn turned(interface: &Interface, watch: &Watch) -> Option<Finding> {
     )
 }
 
-fn deep(interface: &Interface) -> Option<Finding> {
-    let scar = look::scar(interface.view())?;
+fn deep(interface: ContactView) -> Option<Finding> {
+    let scar = look::scar(interface)?;
     let mut said = Vec::new();
     if scar.slope > STEEP {
         said.push(format!("has a slope of up to {:.2}", scar.slope));
@@ -207,12 +208,12 @@ fn deep(interface: &Interface) -> Option<Finding> {
 }
 
 /// Contact that has ended over the edge of the primary: what carried last has nothing opposite any more.
-fn left(view: &View, interface: &Interface, watch: &Watch) -> Option<Finding> {
+fn left(view: &View, interface: ContactView, watch: &Watch) -> Option<Finding> {
     let now = view.frame.state.t;
     if interface.rigid() || watch.carried_at >= now || !interface.schedule.active(now) {
         return None;
     }
-    let gaps = look::initial_gaps(interface.view());
+    let gaps = look::initial_gaps(interface);
     let beyond = watch.carriers.iter().filter(|&&i| !gaps[i].is_finite());
     let count = beyond.clone().count();
     if count == 0 || 2 * count < watch.carriers.len() {
@@ -260,7 +261,7 @@ fn left(view: &View, interface: &Interface, watch: &Watch) -> Option<Finding> {
     )
 }
 
-fn never_carried(interface: &Interface, moves: bool) -> Finding {
+fn never_carried(interface: &InterfaceDefinition, moves: bool) -> Finding {
     let name = &interface.name;
     // What is thrown may land later than anybody wants to know.
     let severity = match moves {
@@ -277,7 +278,7 @@ fn never_carried(interface: &Interface, moves: bool) -> Finding {
     .advise("where the bodies do meet, choose the finer surface as secondary")
 }
 
-fn coarse(interface: &Interface, watch: &Watch) -> Option<Finding> {
+fn coarse(interface: &InterfaceDefinition, watch: &Watch) -> Option<Finding> {
     let found = watch.resolution.filter(|r| r.resolved < RESOLVED)?;
     let name = &interface.name;
     let points = match found.points {

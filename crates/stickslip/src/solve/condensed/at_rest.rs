@@ -1,5 +1,6 @@
 //! Quasi-static increments on the contact candidates.
 
+use crate::contact::look;
 use crate::solve::condenser::{Candidates, Condensed};
 use std::time::Instant;
 
@@ -161,7 +162,7 @@ impl Solver {
         &mut self,
         model: &Model,
         frame: &Frame,
-        contact: &mut Contact,
+        contact: &Contact,
         (found, accepted): (&Candidates, &mut Accepted),
     ) -> Result<(), StepFailure> {
         if let Some(broken) = self.condenser.broken() {
@@ -194,8 +195,8 @@ impl Solver {
         };
         let largest = &mut self.condenser.largest_forces;
         recovered.check(model.settings.tolerance, largest)?;
-        for interface in &mut contact.interfaces {
-            let overlooked = interface.overlooked(u, t);
+        for (interface, view) in contact.interfaces.iter().zip(contact.views(frame)) {
+            let overlooked = look::overlooked(view, &interface.directives, u, t);
             if overlooked > 0 {
                 return Err(StepFailure::new(
                     Cause::Reach,

@@ -3,13 +3,13 @@
 use super::super::finding::{Guilty, What};
 use super::super::places::bounds;
 use crate::body::couplings::Tie;
-use crate::contact::interface::Interface;
+use crate::contact::interface::InterfaceDefinition;
 use crate::math::Vec3;
 use crate::model::definition::Model;
 use crate::model::scene::Scene;
 
 /// A point of the secondary as a place.
-pub(super) fn secondary(interface: &Interface, i: usize, remark: String) -> Guilty {
+pub(super) fn secondary(interface: &InterfaceDefinition, i: usize, remark: String) -> Guilty {
     let point = &interface.points[i];
     Guilty {
         what: What::Node,
@@ -29,7 +29,7 @@ pub(super) fn diameter(points: &[Vec3]) -> f64 {
 }
 
 /// Names of the bodies of the two sides, secondary first; `None` for an obstacle.
-pub(super) fn sides(model: &Model, interface: &Interface) -> [Option<String>; 2] {
+pub(super) fn sides(model: &Model, interface: &InterfaceDefinition) -> [Option<String>; 2] {
     use crate::contact::interface::Primary;
     let name = |local: usize| {
         let point = interface.nodes[local];
@@ -45,7 +45,7 @@ pub(super) fn sides(model: &Model, interface: &Interface) -> [Option<String>; 2]
 }
 
 /// What the problem calls the side of the points and the side of the facets.
-pub(super) fn roles(interface: &Interface) -> [&'static str; 2] {
+pub(super) fn roles(interface: &InterfaceDefinition) -> [&'static str; 2] {
     match interface.exchanged {
         true => ["primary", "secondary"],
         false => ["secondary", "primary"],

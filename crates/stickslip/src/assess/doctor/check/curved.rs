@@ -7,7 +7,7 @@ use super::super::finding::{Finding, Guilty, Severity};
 use super::super::surfaces::{Opposite, coordinates, spacing};
 use super::common::{median, roles, sides};
 use crate::contact::facet_point::evaluate;
-use crate::contact::interface::{Interface, Primary};
+use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::contact::surface::{Facet, edges};
 use crate::math::{Vec3, add, dot, norm, normalize, scale, sub};
 use crate::model::definition::Model;
@@ -39,7 +39,7 @@ struct Bend {
 }
 
 /// How a surface bends from facet to facet, but for edges of the body.
-fn bends(facets: &[&Facet], interface: &Interface) -> Vec<Bend> {
+fn bends(facets: &[&Facet], interface: &InterfaceDefinition) -> Vec<Bend> {
     let mut shared: BTreeMap<Vec<usize>, Vec<usize>> = BTreeMap::new();
     for (f, facet) in facets.iter().enumerate() {
         for edge in edges(facet.kind) {
@@ -75,7 +75,7 @@ fn bends(facets: &[&Facet], interface: &Interface) -> Vec<Bend> {
 
 /// Spacing and curvature opposite a place along a direction: of the facets there, or of an obstacle, which has no spacing.
 fn across(
-    interface: &Interface,
+    interface: &InterfaceDefinition,
     opposite: &mut Opposite,
     bend: &Bend,
     by_facet: &BTreeMap<usize, Vec<&Bend>>,
@@ -115,7 +115,7 @@ struct Between {
 }
 
 /// Places on the secondary that are nearest to the other side.
-fn nearest_places(interface: &Interface, t: f64) -> Vec<Between> {
+fn nearest_places(interface: &InterfaceDefinition, t: f64) -> Vec<Between> {
     let ours: Vec<&Facet> = interface.skin.iter().map(|s| &s.facet).collect();
     let theirs: Vec<&Facet> = match &interface.primary {
         Primary::Facets(facets) => facets.iter().collect(),
@@ -147,14 +147,14 @@ fn nearest_places(interface: &Interface, t: f64) -> Vec<Between> {
 }
 
 /// Where the sides are nearest to each other, and the least curvature between them near there `[1/m]`: below zero one lies in a hollow of the other.
-pub(super) fn rest(interface: &Interface, t: f64) -> Option<(Vec3, f64)> {
+pub(super) fn rest(interface: &InterfaceDefinition, t: f64) -> Option<(Vec3, f64)> {
     let places = nearest_places(interface, t);
     let least = places.iter().map(|p| p.curvature);
     let first = places.first()?;
     Some((first.x, least.fold(f64::INFINITY, f64::min)))
 }
 
-pub(super) fn check(model: &Model, interface: &Interface, t: f64) -> Option<Finding> {
+pub(super) fn check(model: &Model, interface: &InterfaceDefinition, t: f64) -> Option<Finding> {
     if interface.laws.tied {
         return None;
     }
@@ -167,7 +167,7 @@ pub(super) fn check(model: &Model, interface: &Interface, t: f64) -> Option<Find
     (coarse > WIDEST).then(|| say(model, interface, side, coarse))
 }
 
-fn say(model: &Model, interface: &Interface, side: usize, coarse: f64) -> Finding {
+fn say(model: &Model, interface: &InterfaceDefinition, side: usize, coarse: f64) -> Finding {
     let name = &interface.name;
     let role = roles(interface)[side];
     let body = sides(model, interface)[side].clone().unwrap_or_default();

@@ -1,6 +1,6 @@
 //! How far supports, obstacles and initial velocities move the bodies, as long as nothing stands in their way.
 
-use crate::contact::interface::{Interface, Primary};
+use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::math::{Vec3, add, distance, scale, sub};
 use crate::model::definition::{Body, Model};
 use crate::model::scene::Scene;
@@ -62,7 +62,7 @@ pub(super) fn prescribed(model: &Model, owners: &[usize], t: f64) -> Vec<[Compon
 }
 
 /// Indices of the bodies of the two sides, secondary first; `None` for an obstacle.
-pub(super) fn pair(model: &Model, interface: &Interface) -> [Option<usize>; 2] {
+pub(super) fn pair(model: &Model, interface: &InterfaceDefinition) -> [Option<usize>; 2] {
     let of = |local: usize| {
         let point = interface.nodes[local];
         model.bodies.iter().position(|b| b.points.contains(&point))
@@ -106,7 +106,7 @@ pub(super) struct Approach {
 /// body is moved by others or strained, or forces act.
 pub(super) fn approach(
     scene: &Scene,
-    interface: &Interface,
+    interface: &InterfaceDefinition,
     (x, normal): (Vec3, Vec3),
 ) -> Option<Approach> {
     let model = scene.model;
@@ -161,7 +161,7 @@ pub(super) fn approach(
 }
 
 /// Whether a body has something to do with others beside this interface.
-pub(super) fn meets_others(scene: &Scene, interface: &Interface, body: usize) -> bool {
+pub(super) fn meets_others(scene: &Scene, interface: &InterfaceDefinition, body: usize) -> bool {
     let model = scene.model;
     let others = scene
         .contact

@@ -8,7 +8,7 @@ use super::common::{forced, median, secondary};
 use super::driven;
 use super::measured::Measured;
 use crate::assess::view::View;
-use crate::contact::interface::{Interface, Primary};
+use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::contact::law::normal::NormalModel;
 use crate::math::{Vec3, dot, norm, sub};
 use crate::model::definition::Step;
@@ -23,7 +23,11 @@ const KINK: f64 = 300.0;
 /// Part of a motion along the normal that presses surfaces together.
 const ALONG: f64 = 1e-6;
 
-pub(super) fn check(view: &View, interface: &Interface, measured: &Measured) -> Vec<Finding> {
+pub(super) fn check(
+    view: &View,
+    interface: &InterfaceDefinition,
+    measured: &Measured,
+) -> Vec<Finding> {
     let mut out = Vec::new();
     let name = &interface.name;
     if let Some(mu) = friction_coefficient(interface) {
@@ -90,7 +94,11 @@ pub(super) fn check(view: &View, interface: &Interface, measured: &Measured) -> 
 }
 
 /// The median of the coupling limit over the points that are nearest to contact, with all other points held, and the point with the smallest.
-fn coupling(view: &View, interface: &Interface, measured: &Measured) -> Option<(f64, usize)> {
+fn coupling(
+    view: &View,
+    interface: &InterfaceDefinition,
+    measured: &Measured,
+) -> Option<(f64, usize)> {
     let mut limits: Vec<(usize, f64)> = Vec::new();
     for (i, beside) in measured.nearest.iter().enumerate() {
         let Some(node) = interface.points[i].node() else {
@@ -114,7 +122,7 @@ fn coupling(view: &View, interface: &Interface, measured: &Measured) -> Option<(
 /// Friction on an interface that slides while nothing has pressed it together, in the whole analysis or before a later step does.
 pub(super) fn pressureless(
     view: &View,
-    interface: &Interface,
+    interface: &InterfaceDefinition,
     measured: &Measured,
 ) -> Option<Finding> {
     friction_coefficient(interface)?;
@@ -166,7 +174,12 @@ pub(super) fn pressureless(
 
 /// Motions of the secondary relative to the primary that are prescribed within a step, both moved as wholes; `None` where it does not follow from
 /// supports and obstacles: bodies that are strained between supports bulge, and loose ones are pressed by others.
-fn moved(scene: &Scene, interface: &Interface, x: Vec3, step: &Step) -> Option<Vec<Vec3>> {
+fn moved(
+    scene: &Scene,
+    interface: &InterfaceDefinition,
+    x: Vec3,
+    step: &Step,
+) -> Option<Vec<Vec3>> {
     let model = scene.model;
     let owners = driven::owners(model);
     let start = model.steps.first().map_or(0.0, |s| s.start);
@@ -202,7 +215,7 @@ fn moved(scene: &Scene, interface: &Interface, x: Vec3, step: &Step) -> Option<V
     Some(out)
 }
 
-fn too_early(interface: &Interface, early: &str, late: &str) -> Finding {
+fn too_early(interface: &InterfaceDefinition, early: &str, late: &str) -> Finding {
     let name = &interface.name;
     Finding::new(
         DoctorCause::FrictionWithoutPressure,

@@ -6,7 +6,7 @@ use super::common::{forced_by_loads, secondary, travel};
 use super::driven::flight;
 use super::measured::Measured;
 use crate::assess::view::View;
-use crate::contact::interface::{Interface, Primary, Start};
+use crate::contact::interface::{InterfaceDefinition, Primary, Start};
 use crate::contact::surface::{Facet, turns};
 
 /// Overlap relative to the cell beneath that is a mistake, and that is worth a word.
@@ -20,7 +20,11 @@ const ROUNDING: f64 = 1e-9;
 /// By how much prescribed motion may be amplified by the bodies on its way to an interface.
 const LEVER: f64 = 10.0;
 
-pub(super) fn check(view: &View, interface: &Interface, measured: &Measured) -> Vec<Finding> {
+pub(super) fn check(
+    view: &View,
+    interface: &InterfaceDefinition,
+    measured: &Measured,
+) -> Vec<Finding> {
     let finite = measured.gaps.iter().enumerate();
     let mut gaps: Vec<(usize, f64)> = finite
         .filter(|(_, g)| g.is_finite())
@@ -86,7 +90,7 @@ pub(super) fn check(view: &View, interface: &Interface, measured: &Measured) -> 
 
 /// How far straight facets stand off the smooth surface that they stand for, on average `[m]`: an eighth of their length times the angle between
 /// them. Quadratic ones follow it.
-fn standing_off(facets: &[&Facet], interface: &Interface) -> f64 {
+fn standing_off(facets: &[&Facet], interface: &InterfaceDefinition) -> f64 {
     let straight: Vec<&Facet> = facets
         .iter()
         .copied()
@@ -99,7 +103,7 @@ fn standing_off(facets: &[&Facet], interface: &Interface) -> f64 {
 }
 
 /// An overlap that is not much deeper than the facets of a curved surface are off it: the meshes have another fit than the bodies.
-fn faceted(interface: &Interface, gaps: &[(usize, f64)]) -> Option<Finding> {
+fn faceted(interface: &InterfaceDefinition, gaps: &[(usize, f64)]) -> Option<Finding> {
     let overlaps: Vec<f64> = gaps.iter().map(|g| -g.1).take_while(|&g| g > 0.0).collect();
     let typical = overlaps[..].get(overlaps.len() / 2).copied()?;
     let ours: Vec<&Facet> = interface.skin.iter().map(|s| &s.facet).collect();
@@ -129,7 +133,7 @@ fn faceted(interface: &Interface, gaps: &[(usize, f64)]) -> Option<Finding> {
     )
 }
 
-fn nothing_opposite(interface: &Interface, measured: &Measured) -> Finding {
+fn nothing_opposite(interface: &InterfaceDefinition, measured: &Measured) -> Finding {
     let points = measured.nearest.iter().enumerate();
     let near = points.filter_map(|(i, n)| Some((i, n.as_ref()?.distance)));
     let near = near.min_by(|a, b| a.1.total_cmp(&b.1));

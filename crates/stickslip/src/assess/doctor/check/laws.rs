@@ -3,7 +3,7 @@
 use super::super::cause::DoctorCause;
 use super::super::finding::{Finding, Guilty, Severity};
 use super::common::{diameter, median};
-use crate::contact::interface::Interface;
+use crate::contact::interface::InterfaceDefinition;
 use crate::contact::law::friction::{FrictionLaw, FrictionPoint};
 use crate::contact::law::normal::NormalLaw;
 use crate::model::scene::Scene;
@@ -38,13 +38,13 @@ pub(crate) fn check(scene: &Scene) -> Vec<Finding> {
 }
 
 /// Median stiffness `[Pa/m]` and height `[m]` of the cells beneath.
-fn beneath(interface: &Interface) -> Option<(f64, f64)> {
+fn beneath(interface: &InterfaceDefinition) -> Option<(f64, f64)> {
     let stiffness = median(interface.points.iter().map(|p| p.stiffness).collect());
     let size = median(interface.points.iter().map(|p| p.size).collect());
     (stiffness > 0.0 && size > 0.0 && stiffness.is_finite()).then_some((stiffness, size))
 }
 
-fn stiffness(interface: &Interface, largest: f64) -> Option<Finding> {
+fn stiffness(interface: &InterfaceDefinition, largest: f64) -> Option<Finding> {
     let law = interface.laws.normal_law();
     law.pressure(0.0)?;
     if interface.laws.user.normal.is_some() {
@@ -87,7 +87,7 @@ fn stiffness(interface: &Interface, largest: f64) -> Option<Finding> {
 }
 
 /// Laws of the program, tried at a few places.
-fn function(interface: &Interface) -> Option<Finding> {
+fn function(interface: &InterfaceDefinition) -> Option<Finding> {
     let (stiffness, size) = beneath(interface)?;
     let own = &interface.laws.user;
     let name = &interface.name;

@@ -1,7 +1,7 @@
 //! What is measured of an interface once for all rules.
 
 use super::super::surfaces::{Opposite, spacing};
-use crate::contact::interface::Interface;
+use crate::contact::interface::InterfaceDefinition;
 use crate::math::Vec3;
 
 /// What is measured once for all rules, by interface.
@@ -22,7 +22,7 @@ pub(super) struct Beside {
 }
 
 /// Measures an interface, given its gaps at the start.
-pub(super) fn measure(interface: &Interface, gaps: &[f64], t: f64) -> Measured {
+pub(super) fn measure(interface: &InterfaceDefinition, gaps: &[f64], t: f64) -> Measured {
     use crate::contact::interface::Primary;
     let mut opposite = Opposite::new(interface, t);
     let nearest = interface.points.iter().map(|p| {

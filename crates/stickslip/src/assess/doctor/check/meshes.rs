@@ -7,7 +7,7 @@ use super::super::finding::{Finding, Guilty, Severity, What};
 use super::common::{median, roles, sides};
 use super::measured::Measured;
 use crate::assess::view::View;
-use crate::contact::interface::Interface;
+use crate::contact::interface::InterfaceDefinition;
 use crate::model::definition::Model;
 
 /// Sizes of primary facets over those of the secondary that are worth a warning.
@@ -95,7 +95,11 @@ fn pieces(model: &Model, body: &crate::model::Body) -> Vec<Vec<usize>> {
     pieces.into_values().collect()
 }
 
-pub(super) fn check(view: &View, interface: &Interface, measured: &Measured) -> Vec<Finding> {
+pub(super) fn check(
+    view: &View,
+    interface: &InterfaceDefinition,
+    measured: &Measured,
+) -> Vec<Finding> {
     let model = view.model;
     let [Some(ours), Some(theirs)] = sides(model, interface) else {
         return Vec::new();

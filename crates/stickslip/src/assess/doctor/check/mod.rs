@@ -97,10 +97,9 @@ pub(crate) fn examine(view: &View, unjoined: &Unjoined, gaps: &[Vec<f64>]) -> Ve
 
 /// The first interface whose sides do not face each other, as far as the state of the run shows.
 pub(super) fn opposed(view: &View) -> Option<Finding> {
-    let interfaces = view.contact.interfaces.iter();
-    let mut found = interfaces.filter_map(|i| {
-        let measured = measure(i, &look::initial_gaps(i.view()), view.frame.state.t);
-        normals::check(view, i, &measured)
+    let mut found = view.contacts().filter_map(|i| {
+        let measured = measure(&i, &look::initial_gaps(i), view.frame.state.t);
+        normals::check(view, &i, &measured)
     });
     found.next()
 }

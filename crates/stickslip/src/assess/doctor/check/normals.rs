@@ -5,7 +5,7 @@ use super::super::finding::{Finding, Guilty, Severity, What};
 use super::common::{roles, secondary, sides};
 use super::measured::Measured;
 use crate::assess::view::View;
-use crate::contact::interface::{Interface, Primary};
+use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::math::dot;
 
 /// Cosine between outward normals below which two places face each other.
@@ -14,7 +14,11 @@ const FACING: f64 = -0.3;
 /// Part of the points of a body inside an obstacle from which the obstacle is inside out.
 const INSIDE: f64 = 0.5;
 
-pub(super) fn check(view: &View, interface: &Interface, measured: &Measured) -> Option<Finding> {
+pub(super) fn check(
+    view: &View,
+    interface: &InterfaceDefinition,
+    measured: &Measured,
+) -> Option<Finding> {
     let best = measured.nearest.iter().enumerate().filter_map(|(i, n)| {
         let n = n.as_ref()?;
         Some((i, dot(n.normal, interface.points[i].normal)))
@@ -72,7 +76,11 @@ pub(super) fn check(view: &View, interface: &Interface, measured: &Measured) -> 
 }
 
 /// Two surfaces of one body with its material between them.
-pub(super) fn through(view: &View, interface: &Interface, measured: &Measured) -> Option<Finding> {
+pub(super) fn through(
+    view: &View,
+    interface: &InterfaceDefinition,
+    measured: &Measured,
+) -> Option<Finding> {
     let [own, other] = sides(view.model, interface);
     if own.is_none() || own != other {
         return None;
@@ -104,7 +112,7 @@ pub(super) fn through(view: &View, interface: &Interface, measured: &Measured) -
 }
 
 /// A body most of which lies within the obstacle it is meant to rest on.
-fn inside_out(view: &View, interface: &Interface, ours: &str) -> Option<Finding> {
+fn inside_out(view: &View, interface: &InterfaceDefinition, ours: &str) -> Option<Finding> {
     let model = view.model;
     if !interface.rigid() {
         return None;

@@ -4,7 +4,7 @@ use super::super::cause::DoctorCause;
 use super::super::finding::{Finding, Guilty, Severity};
 use super::super::surfaces::spacing;
 use super::common::median;
-use crate::contact::interface::Interface;
+use crate::contact::interface::InterfaceDefinition;
 use crate::math::distance;
 use crate::model::definition::Model;
 
@@ -14,7 +14,7 @@ const POINTS: f64 = 2.0;
 /// Strain that it takes to press waves flat from which nothing of a linear body can be trusted.
 const LARGE: f64 = 0.2;
 
-pub(super) fn check(model: &Model, interface: &Interface) -> Option<Finding> {
+pub(super) fn check(model: &Model, interface: &InterfaceDefinition) -> Option<Finding> {
     if interface.relief.is_empty() {
         return None;
     }
@@ -22,7 +22,7 @@ pub(super) fn check(model: &Model, interface: &Interface) -> Option<Finding> {
 }
 
 /// Waves that are shorter than two distances of points.
-fn aliased(model: &Model, interface: &Interface) -> Option<Finding> {
+fn aliased(model: &Model, interface: &InterfaceDefinition) -> Option<Finding> {
     let waves = model.waves.iter().find(|w| w.0 == interface.name)?;
     let facets = interface.skin.iter().map(|s| spacing(interface, &s.facet));
     let apart = median(facets.collect());
@@ -47,7 +47,7 @@ fn aliased(model: &Model, interface: &Interface) -> Option<Finding> {
 
 /// Heights between neighbouring points that are a good part of their distance. A cosine of amplitude `a` and length `λ` is pressed flat by the pressure `π E* a / λ`
 /// ([Westergaard 1939](crate::references::westergaard_1939)), a strain of half its steepest slope, which is `√2` times the root mean square.
-fn steep(interface: &Interface) -> Option<Finding> {
+fn steep(interface: &InterfaceDefinition) -> Option<Finding> {
     let mut height = vec![None; interface.nodes.len()];
     for (point, h) in interface.points.iter().zip(&interface.relief) {
         if let Some(node) = point.node() {

@@ -6,7 +6,7 @@ use super::super::places::body;
 use super::common::forced_by_loads;
 use super::driven::{approach, thrown};
 use super::measured::Measured;
-use crate::contact::interface::{Interface, Primary};
+use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::math::norm;
 use crate::model::definition::{Body, Model};
 use crate::model::scene::Scene;
@@ -111,7 +111,7 @@ fn rates(model: &Model, value: impl Fn(f64) -> f64, active: impl Fn(f64) -> bool
 }
 
 /// Whether equations or springs act on a body of an interface.
-fn coupled(scene: &Scene, interface: &Interface) -> bool {
+fn coupled(scene: &Scene, interface: &InterfaceDefinition) -> bool {
     let model = scene.model;
     let sides = super::driven::pair(model, interface);
     let mine = |p: usize| {
@@ -122,7 +122,11 @@ fn coupled(scene: &Scene, interface: &Interface) -> bool {
 }
 
 /// An interface that everything prescribed opens.
-pub(super) fn apart(scene: &Scene, interface: &Interface, measured: &Measured) -> Option<Finding> {
+pub(super) fn apart(
+    scene: &Scene,
+    interface: &InterfaceDefinition,
+    measured: &Measured,
+) -> Option<Finding> {
     let model = scene.model;
     // Glued sides are meant to pull at each other, and equations and springs move bodies as supports do.
     if interface.laws.tied || coupled(scene, interface) {

@@ -6,7 +6,7 @@ use super::super::places::{body, bounds};
 use super::driven::{apart, approach, pair};
 use super::measured::Measured;
 use crate::body::Space;
-use crate::contact::interface::Interface;
+use crate::contact::interface::InterfaceDefinition;
 use crate::math::sub;
 use crate::model::definition::{Body, Model};
 use crate::model::scene::Scene;
@@ -128,7 +128,7 @@ fn loaded(model: &Model, body: &Body) -> Option<Finding> {
 /// Sides of an interface that are pressed into each other by a large part of their bodies.
 pub(super) fn pressed(
     scene: &Scene,
-    interface: &Interface,
+    interface: &InterfaceDefinition,
     measured: &Measured,
 ) -> Option<Finding> {
     let model = scene.model;

@@ -7,7 +7,7 @@ use super::super::finding::{Finding, Guilty, Severity, What};
 use super::common::{roles, sides};
 use crate::body::couplings::Row;
 use crate::contact::facet_point::evaluate;
-use crate::contact::interface::{Interface, Primary};
+use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::math::Vec3;
 use crate::model::definition::{Body, Model};
 use crate::model::scene::Scene;
@@ -26,7 +26,7 @@ struct Surface<'a> {
 }
 
 /// The surfaces of elastic bodies, that of the points first.
-fn surfaces<'a>(model: &'a Model, interface: &Interface) -> Vec<Surface<'a>> {
+fn surfaces<'a>(model: &'a Model, interface: &InterfaceDefinition) -> Vec<Surface<'a>> {
     let names = sides(model, interface);
     let [own, other] = roles(interface);
     let mut normals: BTreeMap<usize, Vec3> = Default::default();
@@ -62,7 +62,7 @@ fn surfaces<'a>(model: &'a Model, interface: &Interface) -> Vec<Surface<'a>> {
     all.into_iter().filter_map(surface).collect()
 }
 
-pub(super) fn check(scene: &Scene, interface: &Interface) -> Vec<Finding> {
+pub(super) fn check(scene: &Scene, interface: &InterfaceDefinition) -> Vec<Finding> {
     let model = scene.model;
     if interface.laws.tied {
         return Vec::new();
@@ -77,7 +77,7 @@ pub(super) fn check(scene: &Scene, interface: &Interface) -> Vec<Finding> {
 }
 
 /// A support that holds the surface itself along its normal, although the body behind it could move.
-fn held(model: &Model, interface: &Interface, surface: &Surface) -> Option<Finding> {
+fn held(model: &Model, interface: &InterfaceDefinition, surface: &Surface) -> Option<Finding> {
     let on: BTreeSet<usize> = surface.points.iter().map(|p| p.0).collect();
     for support in &model.supports {
         let mut held: BTreeSet<(usize, usize)> = BTreeSet::new();
@@ -125,7 +125,7 @@ fn held(model: &Model, interface: &Interface, surface: &Surface) -> Option<Findi
 }
 
 /// A kinematic coupling that makes the surface itself rigid, although the body behind it could give way.
-fn stiffened(scene: &Scene, interface: &Interface, surface: &Surface) -> Option<Finding> {
+fn stiffened(scene: &Scene, interface: &InterfaceDefinition, surface: &Surface) -> Option<Finding> {
     let model = scene.model;
     let meshed = model.mesh.points.len();
     let on: BTreeSet<usize> = surface.points.iter().map(|p| p.0).collect();
@@ -167,7 +167,7 @@ fn stiffened(scene: &Scene, interface: &Interface, surface: &Surface) -> Option<
 }
 
 /// A load that acts on the surface of contact and nowhere else.
-fn loaded(model: &Model, interface: &Interface, surface: &Surface) -> Option<Finding> {
+fn loaded(model: &Model, interface: &InterfaceDefinition, surface: &Surface) -> Option<Finding> {
     let on: BTreeSet<usize> = surface.points.iter().map(|p| p.0).collect();
     for load in &model.loads {
         let acted: BTreeSet<usize> = load
@@ -203,7 +203,7 @@ fn loaded(model: &Model, interface: &Interface, surface: &Surface) -> Option<Fin
 /// Two interfaces between the same surfaces that act at the same time.
 pub(crate) fn doubled(scene: &Scene) -> Option<Finding> {
     let model = scene.model;
-    let sets: Vec<[BTreeSet<usize>; 2]> = scene.contact.interfaces.iter().map(nodes).collect();
+    let sets: Vec<[BTreeSet<usize>; 2]> = scene.contacts().map(|i| nodes(&i)).collect();
     for (b, second) in scene.contact.interfaces.iter().enumerate() {
         for (a, first) in scene.contact.interfaces.iter().enumerate().take(b) {
             // The two halves of two-sided contact are one interface of the problem.
@@ -233,7 +233,7 @@ pub(crate) fn doubled(scene: &Scene) -> Option<Finding> {
     None
 }
 
-fn twice(first: &Interface, second: &Interface) -> Finding {
+fn twice(first: &InterfaceDefinition, second: &InterfaceDefinition) -> Finding {
     Finding::new(
         DoctorCause::DoubledInterface,
         Severity::Warning,
@@ -248,7 +248,7 @@ fn twice(first: &Interface, second: &Interface) -> Finding {
 }
 
 /// Points of the mesh on the secondary and on the primary.
-fn nodes(interface: &Interface) -> [BTreeSet<usize>; 2] {
+fn nodes(interface: &InterfaceDefinition) -> [BTreeSet<usize>; 2] {
     let primary = interface.nodes[..interface.primary_nodes].iter();
     let secondary = interface.points.iter().flat_map(|p| &p.nodes);
     [

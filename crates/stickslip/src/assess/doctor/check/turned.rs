@@ -6,7 +6,7 @@ use super::common::{median, times};
 use super::driven::pair;
 use super::measured::Measured;
 use crate::assess::missed::{Turned, missed_gaps};
-use crate::contact::interface::{Interface, Start};
+use crate::contact::interface::{InterfaceDefinition, Start};
 use crate::contact::look::Pressing;
 use crate::math::{Vec3, norm};
 use crate::model::definition::{Body, Model};
@@ -121,7 +121,7 @@ fn turns_in_cells(body: &Body) -> bool {
 /// What an interface misses of its gap at the start, in the mean, and the gap or overlap that counts there `[m]`; `None` where neither is known before anything presses.
 fn missed(
     scene: &Scene,
-    interface: &Interface,
+    interface: &InterfaceDefinition,
     measured: &Measured,
     turn: &Turn,
 ) -> Option<[f64; 2]> {

@@ -7,7 +7,7 @@ use super::super::surfaces::Opposite;
 use super::curved::rest;
 use super::driven::{meets_others, pair};
 use crate::assess::view::View;
-use crate::contact::interface::Interface;
+use crate::contact::interface::InterfaceDefinition;
 use crate::math::{dot, norm, scale, sub};
 
 /// Part by which the height may exceed the radius without a word: a wheel under its own weight stands as well here as there.
@@ -15,7 +15,7 @@ const NEUTRAL: f64 = 1e-3;
 
 /// A body under dead loads that roll it off what it stands on. When it rolls by an angle `θ` over a contact with the curvature `κ` between the surfaces, a load at the height `h` above the
 /// contact sinks by `(h - 1/κ) θ²/2`: where that is positive it is at rest in the middle only, and any push brings it down.
-pub(super) fn check(view: &View, interface: &Interface) -> Option<Finding> {
+pub(super) fn check(view: &View, interface: &InterfaceDefinition) -> Option<Finding> {
     let model = view.model;
     let step = model.steps.first().filter(|s| s.dynamic.is_none())?;
     if interface.laws.tied || !interface.schedule.active(step.end) {

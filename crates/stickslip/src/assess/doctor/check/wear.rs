@@ -5,7 +5,7 @@ use super::super::finding::{Finding, Guilty, Severity};
 use super::super::friction::friction_coefficient;
 use super::common::{roles, sides};
 use crate::assess::view::View;
-use crate::contact::interface::{Interface, Primary};
+use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::contact::law::wear::Feedback;
 use crate::contact::look;
 use crate::model::cycling::Jump;
@@ -25,7 +25,7 @@ pub(crate) fn fast(scene: &Scene) -> Vec<Finding> {
         .collect()
 }
 
-fn too_fast(model: &Model, interface: &Interface) -> Option<Finding> {
+fn too_fast(model: &Model, interface: &InterfaceDefinition) -> Option<Finding> {
     let shear = friction_coefficient(interface).unwrap_or(1.0);
     let rates = interface.laws.wear.as_dyn().fastest();
     let [own, other] = sides(model, interface);
@@ -59,15 +59,15 @@ fn too_fast(model: &Model, interface: &Interface) -> Option<Finding> {
 }
 
 /// The longest way `[m]` that an increment may slide, times the cycles that it stands for, where wear is explicit.
-pub(crate) fn longest_way(model: &Model, interface: &Interface) -> Option<f64> {
+pub(crate) fn longest_way(model: &Model, interface: &InterfaceDefinition) -> Option<f64> {
     if interface.laws.feedback != Feedback::Explicit {
         return None;
     }
     let shear = friction_coefficient(interface).unwrap_or(0.0);
-    look::explicit_limit(interface.view(), modulus(model, interface)?, shear)
+    look::explicit_limit(interface, modulus(model, interface)?, shear)
 }
 
-pub(super) fn check(view: &View, interface: &Interface) -> Option<Finding> {
+pub(super) fn check(view: &View, interface: &InterfaceDefinition) -> Option<Finding> {
     let limit = longest_way(view.model, interface)?;
     let name = &interface.name;
     let jumps = view
@@ -101,7 +101,7 @@ pub(super) fn check(view: &View, interface: &Interface) -> Option<Finding> {
 }
 
 /// The plane modulus of both bodies together, of isotropic ones `E / (1 - ν²) = 4 G (M - G) / M` with the constrained modulus `M` and the shear modulus `G`.
-fn modulus(model: &Model, interface: &Interface) -> Option<f64> {
+fn modulus(model: &Model, interface: &InterfaceDefinition) -> Option<f64> {
     let of = |node: Option<&usize>| -> Option<f64> {
         let mut bodies = model.elastic();
         let body = bodies.find(|b| node.is_some_and(|n| b.points.contains(n)))?;

@@ -10,7 +10,7 @@ use super::cause::DoctorCause;
 use super::finding::{Finding, Guilty, Severity};
 use super::places::{body as body_at, bounds};
 use super::record::note;
-use crate::contact::interface::{Interface, Primary};
+use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::math::{Vec3, distance};
 use crate::model::definition::{Model, Support};
 use crate::model::scene::Scene;
@@ -233,7 +233,7 @@ fn first(scene: &Scene, i: usize) -> bool {
 }
 
 /// Whether two interfaces have one obstacle. Each counts coordinates from a place of its own, so surfaces are compared where the points are.
-fn same(model: &Model, a: &Interface, b: &Interface) -> bool {
+fn same(model: &Model, a: &InterfaceDefinition, b: &InterfaceDefinition) -> bool {
     let rounding = ROUNDING * model.mesh.diameter();
     let times = model.steps.iter().flat_map(|s| [s.start, s.end]);
     let asked: Vec<Vec3> = [a, b]

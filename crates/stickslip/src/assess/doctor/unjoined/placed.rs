@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::assess::doctor::places::bounds;
 use crate::contact::facet_point::evaluate;
-use crate::contact::interface::{Interface, Primary};
+use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::contact::projection::{Patch, facet_distance};
 use crate::contact::search::Tree;
 use crate::math::{Vec3, add, distance, dot, sub};
@@ -173,7 +173,7 @@ impl Placed<'_> {
     }
 
     /// The deepest of the points of a body in an obstacle.
-    pub(super) fn behind(&self, body: &Boundary, interface: &Interface) -> Overlap {
+    pub(super) fn behind(&self, body: &Boundary, interface: &InterfaceDefinition) -> Overlap {
         let facet = body.facets.first().map_or(0.0, |f| {
             let x = self.nodes(f);
             distance(x[0], x[1])
@@ -191,7 +191,11 @@ impl Placed<'_> {
     }
 
     /// A middle of a facet of a body that stands on an obstacle.
-    pub(super) fn standing(&self, body: &Boundary, interface: &Interface) -> Option<Vec3> {
+    pub(super) fn standing(
+        &self,
+        body: &Boundary,
+        interface: &InterfaceDefinition,
+    ) -> Option<Vec3> {
         let middles = self.places(body).into_iter();
         let mut middles = middles.filter_map(|(x, n)| Some((x, n?))).zip(&body.facets);
         let found = middles.find(|((x, normal), facet)| {
@@ -215,7 +219,7 @@ struct Near {
 }
 
 /// Gap of a place to the obstacle of an interface, and the normal there.
-pub(super) fn gap(interface: &Interface, x: Vec3, t: f64) -> Option<(f64, Vec3)> {
+pub(super) fn gap(interface: &InterfaceDefinition, x: Vec3, t: f64) -> Option<(f64, Vec3)> {
     let Primary::Rigid(shape, motion) = &interface.primary else {
         return None;
     };
