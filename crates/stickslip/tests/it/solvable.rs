@@ -216,3 +216,34 @@ step = [{ increments.fixed = 4, pretension.jack = { force = -5e3 } }]
     let pressed = row.get("joint.CFN2").expect("a force");
     assert!((4e3..5e3).contains(&pressed), "{pressed}");
 }
+
+/// A head that presses by a coupling, and by a support of the same points: where Newton's method fails a friction problem stands in, and equations hold in it too.
+#[test]
+fn friction_problems_know_what_equations_are_off() {
+    let head = |held: &str| {
+        let row = solved_at_once(&format!(
+            r#"
+format = 1
+model.space = "plane-strain"
+material.m = {{ isotropic = {{ young = 2e5, poisson = 0.35 }}, expansion = 4e-5 }}
+body.block = {{ generate.rectangle = {{ from = [-1.2, 0], to = [1.2, 1], cells = [8, 3] }}, material = "m" }}
+obstacle.floor.plane = {{ point = [0, 0], normal = [0, 1] }}
+interface.sole = {{ secondary = "block.bottom", primary = "floor", friction.coulomb.mu = 0.5, slip.regularised.epsilon = 2e-4 }}
+temperature.hot = {{ set = "block", uniform.value = 50 }}
+step = [{{ increments.fixed = 1 }}]
+{held}
+"#
+        ));
+        ["sole.CFN2", "sole.CPRESSMAX", "sole.ALLFD"].map(|name| row.get(name).expect("a figure"))
+    };
+    let coupled = head(
+        r#"
+reference.head.point = [0, 1]
+coupling.head.kinematic = { reference = "head", set = "block.top" }
+support.press = { set = "head", x = 0, y = -1e-2, rotation-z = 0 }"#,
+    );
+    let held = head("support.press = { set = \"block.top\", x = 0, y = -1e-2 }");
+    for (a, b) in coupled.iter().zip(held) {
+        assert!((a / b - 1.0).abs() < 1e-6, "{a} and {b}");
+    }
+}
