@@ -216,3 +216,23 @@ step = [{ increments.fixed = 4, pretension.jack = { force = -5e3 } }]
     let pressed = row.get("joint.CFN2").expect("a force");
     assert!((4e3..5e3).contains(&pressed), "{pressed}");
 }
+
+/// A block that a reference point drives down on a belt: the friction problem counts what the equations of the reference point are still off, which the first guess leaves to them.
+#[test]
+fn a_friction_problem_moves_what_equations_drive() {
+    solved_at_once(
+        r#"
+format = 1
+model.space = "plane-strain"
+body.upper = { generate.rectangle = { from = [-1, 0], to = [1, 0.8], cells = [6, 2] }, material = "m" }
+material.m.isotropic = { young = 6e4, poisson = 0.3 }
+obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
+reference.head = { point = [0, 0.8] }
+coupling.head.kinematic = { reference = "head", set = "upper.top" }
+interface.joint = { secondary = "upper.bottom", primary = "floor", friction.static-kinetic = { static = 0.444, kinetic = 0.333 }, enforcement.penalty = {}, primary-velocity = [1e4, 0] }
+support.press = { set = "head", y = -8e-3 }
+support.guide = { set = "head", x = 0, rotation-z = 0 }
+step = [{ duration = 3e-7, increments.fixed = 2 }]
+"#,
+    );
+}
