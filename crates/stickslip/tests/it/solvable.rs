@@ -236,3 +236,60 @@ step = [{ duration = 3e-7, increments.fixed = 2 }]
 "#,
     );
 }
+
+/// A rigid block on a layer with a period, both of whose ends contact holds as well: how stiff it is there does not hang on what else is fastened to the block, nor on nodes beside
+/// that it holds, too.
+#[test]
+fn a_period_beneath_a_rigid_block_costs_few_iterations() {
+    for bed in [
+        "",
+        r#"load.bed = { set = "upper.right", spring.stiffness = [7.7, 7.7] }"#,
+    ] {
+        let text = format!(
+            r#"
+format = 1
+model.space = "plane-strain"
+body.lower = {{ generate.rectangle = {{ from = [-4.4, -4], to = [4.4, 0], cells = [4, 2] }}, material = "m" }}
+body.upper = {{ generate.rectangle = {{ from = [-4.4, 0], to = [4.4, 3], cells = [7, 2] }}, material = "m", rigid = true }}
+material.m.isotropic = {{ young = 38.0, poisson = 0.3, density = 1.0 }}
+reference.head = {{ point = [0, 3] }}
+coupling.head.kinematic = {{ reference = "head", set = "upper.top" }}
+coupling.px.equation.terms = [{{ set = "lower.left", component = "x" }}, {{ set = "lower.right", component = "x", factor = -1 }}]
+coupling.py.equation.terms = [{{ set = "lower.left", component = "y" }}, {{ set = "lower.right", component = "y", factor = -1 }}]
+interface.joint = {{ secondary = "upper.bottom", primary = "lower.top", friction.coulomb.mu = 0.76, enforcement.perturbed-lagrangian = {{}} }}
+support.base = {{ set = "lower.bottom", x = 0, y = 0 }}
+support.press = {{ set = "head", x = 0, y = -3.5e-2, rotation-z = 0 }}
+{bed}
+step = [{{ increments.fixed = 1 }}]
+"#
+        );
+        let record = record(&text);
+        assert_eq!(record.cutbacks, 0, "{bed}");
+        let iterations = iterations(&record);
+        assert!(iterations[0] <= 8, "{bed}: {iterations:?}");
+    }
+}
+
+/// A face that is kept level by equations with its point on the axis, next to which there is little of the body: the other points are held to each other as firmly as they resist.
+#[test]
+fn a_face_is_kept_level_with_a_soft_point_in_few_iterations() {
+    let record = record(
+        r#"
+format = 1
+model.space = "axisymmetric"
+body.lower = { generate.rectangle = { from = [0, -2.6], to = [2.5, 0], cells = [2, 2], element = "tri6", diagonal = "up" }, material = "m" }
+body.upper = { generate.rectangle = { to = [2.5, 2.6], cells = [5, 2], element = "tri6", diagonal = "up" }, material = "m" }
+material.m.isotropic = { young = 2.75e12, poisson = 0.1 }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top" }
+set.corner = { of = "upper", point = [0, 2.6] }
+coupling.level.equation.terms = [{ set = "upper.top", component = "y" }, { set = "corner", component = "y", factor = -1 }]
+load.press = { set = "upper.top", pressure.value = 3.8e9 }
+support.axis = { set = "upper.left", x = 0 }
+support.lower = { set = "lower.left", x = 0 }
+support.base = { set = "lower.bottom", y = 0 }
+step = [{ increments.fixed = 1 }]
+"#,
+    );
+    let iterations = iterations(&record);
+    assert!(iterations[0] <= 12, "{iterations:?}");
+}
