@@ -293,3 +293,33 @@ step = [{ increments.fixed = 1 }]
     let iterations = iterations(&record);
     assert!(iterations[0] <= 12, "{iterations:?}");
 }
+
+/// A clamped block is pressed and let go to where it was before: nothing is left to which an out-of-balance force could be compared but what rounding leaves of the way.
+#[test]
+fn what_is_let_go_comes_back_to_nothing() {
+    let record = record(
+        r#"
+format = 1
+model.space = "plane-stress"
+body.b = { generate.rectangle = { from = [-2, 0], to = [2, 1.3], cells = [5, 2] }, material = "m" }
+material.m.isotropic = { young = 6.7e5, poisson = 0.16 }
+obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
+interface.joint = { secondary = "b.bottom", primary = "floor", normal.power-law = { c = 7.8e12, m = 2.65 }, enforcement.penalty = {} }
+reference.head = { point = [0, 1.3] }
+coupling.head.distributing = { reference = "head", set = "b.top" }
+support.clamp = { set = "b.right", x = 0, y = 0 }
+support.press = { set = "head", y = -1.6e-2, amplitude = "press" }
+support.guide = { set = "head", rotation-z = 0 }
+amplitude.press.table = [[0, 0], [1, 1], [2, 0]]
+solver.method = "sparse"
+step = [{ increments.fixed = 3 }, { increments.fixed = 6 }]
+"#,
+    );
+    assert_eq!(record.cutbacks, 0);
+    let force = |k: usize| record.increments[k].1.get("joint.CFN2").expect("a force");
+    let (pressed, left) = (force(2), force(8));
+    assert!(
+        pressed > 0.0 && left.abs() < 1e-9 * pressed,
+        "{pressed} {left}"
+    );
+}
