@@ -323,3 +323,27 @@ step = [{ increments.fixed = 3 }, { increments.fixed = 6 }]
         "{pressed} {left}"
     );
 }
+
+/// Three blocks that are pressed and dragged at once, with multigrid: a friction problem of all points costs more than an attempt, and no more than those that have come to nothing.
+#[test]
+fn after_attempts_in_vain_a_friction_problem_may_cost_as_much() {
+    let record = record(
+        r#"
+format = 1
+model.space = "solid"
+solver.method = "multigrid"
+body.lower = { generate.box = { from = [-2.45, -1.225, -1.8], to = [2.45, 1.225, 0], cells = [3, 2, 2] }, material = "soft" }
+body.upper = { generate.box = { from = [-2.45, -1.225, 0], to = [2.45, 1.225, 1.9], cells = [4, 2, 2] }, material = "hard" }
+body.cap = { generate.box = { from = [-2.7, -1.225, 1.9], to = [2.9, 1.225, 2.9], cells = [3, 2, 2] }, material = "soft" }
+material.soft.isotropic = { young = 6.22e9, poisson = 0.02 }
+material.hard.isotropic = { young = 1.11e10, poisson = 0.35 }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb.mu = 0.323, enforcement.penalty = {}, discretisation.node-to-facet = {}, roles = "as-named" }
+interface.second = { secondary = "upper.top", primary = "cap.bottom", friction.coulomb.mu = 0.323, enforcement.penalty = {} }
+load.bed = { set = "upper.right", spring.stiffness = [7.4e7, 7.4e7, 7.4e7] }
+support.base = { set = "lower.bottom", x = 0, y = 0, z = 0 }
+support.press = { set = "cap.top", x = 1.47e-2, y = 0, z = -1.96e-2 }
+step = [{ increments.initial = 0.333 }]
+"#,
+    );
+    assert!(record.cutbacks <= 8, "{}", record.cutbacks);
+}
