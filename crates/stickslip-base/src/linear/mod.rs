@@ -33,7 +33,7 @@ pub use compliance::Compliance;
 pub use digest::Digest;
 pub use eigen::{
     Complex, DenseLu, Found, Krylov, Nearest, Pencil, RealModes, Wanted, arnoldi, eigenvalues,
-    general, lanczos, pencil, products, sums, symmetric,
+    general, lanczos, noise, pencil, products, sums, symmetric,
 };
 pub use engine::{
     Cut, Engine, EngineReport, FactorEffort, Interior, Multifrontal, Mumps, MumpsOptions, Ordered,

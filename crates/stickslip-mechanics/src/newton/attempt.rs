@@ -20,6 +20,8 @@ pub(super) struct Attempt<'a, 's> {
     pub strategy: Strategy,
     /// Dimensionless settings.
     pub settings: Settings,
+    /// Iterations that attempts at other increments from the same state took, which led nowhere.
+    pub in_vain: usize,
     /// Counts.
     pub statistics: &'a mut Statistics,
     /// Whether the solution shall be given up.

@@ -57,7 +57,9 @@ impl Balance {
             forces[i] += out.residual[i];
             if !fixed[i] {
                 let stiffness = system.bulk.diagonal(i);
-                bulk += (ROUNDINGS * f64::EPSILON * stiffness * at.u[i]).powi(2);
+                // Displacements that go back to nothing keep the rounding of those that they come from.
+                let size = f64::max(at.u[i].abs(), from.u[i].abs());
+                bulk += (ROUNDINGS * f64::EPSILON * stiffness * size).powi(2);
                 norm += forces[i] * forces[i];
             }
         }

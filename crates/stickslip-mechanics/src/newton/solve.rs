@@ -32,6 +32,8 @@ pub struct Newton {
     pub fallbacks: Vec<Fallback>,
     /// The friction problem of the last increment for which neither way led anywhere.
     pub unsolved: Option<FrictionProblem>,
+    /// Iterations of the solutions since the last equilibrium, which led to none.
+    in_vain: usize,
     /// Asked in every iteration whether the solution shall be given up.
     pub interrupt: Option<Arc<dyn Fn() -> bool + Send + Sync>>,
 }
@@ -58,6 +60,23 @@ impl Newton {
         at: &mut State,
         log: &mut dyn FnMut(&Progress),
     ) -> Result<Converged, StepFailure> {
+        let begun = self.statistics.iterations;
+        let outcome = self.find(system, (from, at), log);
+        match &outcome {
+            Ok(_) => self.in_vain = 0,
+            // What is given up from outside is begun again as if nothing had been.
+            Err(failure) if failure.cause == Cause::Interrupted => {}
+            Err(_) => self.in_vain += self.statistics.iterations - begun,
+        }
+        outcome
+    }
+
+    fn find(
+        &mut self,
+        system: &mut System,
+        (from, at): (&State, &mut State),
+        log: &mut dyn FnMut(&Progress),
+    ) -> Result<Converged, StepFailure> {
         system.constraints.impose(&mut at.u);
         system.links.impose(&mut at.u);
         let guess = at.u.clone();
@@ -72,6 +91,7 @@ impl Newton {
             guess: &guess,
             strategy: Strategy::Plain,
             settings: self.settings,
+            in_vain: self.in_vain,
             statistics: &mut self.statistics,
             interrupted: &|| interrupt.is_some_and(|asked| asked()),
             log,

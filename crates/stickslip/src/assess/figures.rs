@@ -238,6 +238,14 @@ pub(crate) static PRESTRESS: Kind = Kind {
     help: "take the frequencies for those of the body without stress, or another program for bodies that are pressed or drawn so far that it shows",
 };
 
+pub(crate) static MODE_RESIDUAL: Kind = Kind {
+    name: "mode-residual",
+    own: 0.0,
+    model: 0.0,
+    what: "the equations of motion are left open by this part in the worst mode or vibration",
+    help: "ask for fewer modes, or hold bodies that nothing holds; of vibrations, take more of the modes that they are made of",
+};
+
 pub(crate) static DISPLACEMENT: Kind = Kind {
     name: "displacement",
     own: 1.0,

@@ -59,6 +59,14 @@ pub struct ModalOutcome {
 }
 
 impl ModalOutcome {
+    /// What is left of the equations of motion in the worst mode, or at the worst frequency.
+    pub(crate) fn worst_residual(&self) -> Option<f64> {
+        let modes = self.modes.iter().map(|mode| mode.residual);
+        let response = self.response.iter().flat_map(|r| &r.rows);
+        let all = modes.chain(response.map(|row| row.residual));
+        all.max_by(f64::total_cmp)
+    }
+
     /// The same without shapes and matrices.
     pub(crate) fn figures(&self) -> Self {
         let modes = self.modes.iter().map(|mode| Mode {

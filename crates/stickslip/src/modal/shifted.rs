@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::linear::{Linear, Pair, Rub, add_pairs, fault, product};
 use crate::error::RunError;
-use crate::linear::{BlockCsr, DenseLu, Factor, LinearError, Symbolic};
+use crate::linear::{BlockCsr, DenseLu, Factor, LinearError, Symbolic, noise};
 use crate::math::vector::dot;
 use crate::model::frame::Frame;
 
@@ -16,6 +16,10 @@ const COLUMNS: usize = 32;
 
 /// Shift where the stiffness alone is singular, relative to the largest squared frequency that the diagonals tell of.
 const SMALL: f64 = 1e-7;
+
+/// Lowest squared frequency, relative to the largest that the diagonals tell of, that rounding of the stiffness may leave of none: a factor of such a stiffness is one of
+/// rounding.
+const LOST: f64 = 1e-12;
 
 /// The factor of `A = K + σ C + σ² M`.
 pub(crate) struct Shifted<'a> {
@@ -30,7 +34,7 @@ pub(crate) struct Shifted<'a> {
 }
 
 impl<'a> Shifted<'a> {
-    /// Without a shift where the stiffness holds everything, with a small one where it does not. `damped`: with the damping of bodies.
+    /// Without a shift where the stiffness holds everything, with a small one where it does not, or by rounding alone. `damped`: with the damping of bodies.
     pub fn new(linear: &'a Linear, frame: &Frame, damped: bool) -> Result<Self, RunError> {
         let fixed = &linear.fixed;
         let symbolic = Symbolic::analyze(&linear.stiffness, fixed, &[]);
@@ -40,7 +44,7 @@ impl<'a> Shifted<'a> {
             let sigma = f64::sqrt(shift);
             let matrix = matrix(linear, sigma, damped);
             match Factor::new(&symbolic, &matrix, &[]) {
-                Ok(factor) => {
+                Ok(factor) if shift > 0.0 || holds(linear, &factor) => {
                     return Ok(Shifted {
                         linear,
                         factor,
@@ -49,7 +53,7 @@ impl<'a> Shifted<'a> {
                         damped,
                     });
                 }
-                Err(LinearError::NotPositive { .. } | LinearError::Singular { .. }) => {
+                Ok(_) | Err(LinearError::NotPositive { .. } | LinearError::Singular { .. }) => {
                     let first = SMALL * highest(linear);
                     shift = if shift == 0.0 { first } else { 30.0 * shift };
                 }
@@ -108,6 +112,26 @@ impl<'a> Shifted<'a> {
         let whole: f64 = x.iter().map(|x| dot(x, &self.times(x))).sum();
         (open.max(0.0) / whole.max(f64::MIN_POSITIVE)).sqrt()
     }
+}
+
+/// Whether the lowest frequency with a factored stiffness is more than rounding, by inverse iteration: what nothing holds outgrows all else within two solutions.
+fn holds(linear: &Linear, factor: &Factor) -> bool {
+    let mut seed = 0x5eed;
+    let mut x: Vec<f64> = (0..linear.size()).map(|_| noise(&mut seed)).collect();
+    let mut lowest = f64::INFINITY;
+    for _ in 0..3 {
+        let mut force = linear.times(&linear.mass, &x);
+        let before = dot(&x, &force).max(0.0).sqrt();
+        factor.solve_columns(&mut force, 1);
+        x = force;
+        let after = dot(&x, &linear.times(&linear.mass, &x)).max(0.0).sqrt();
+        if before == 0.0 || after == 0.0 {
+            return true;
+        }
+        lowest = before / after;
+        x.iter_mut().for_each(|x| *x /= after);
+    }
+    lowest > LOST * highest(linear)
 }
 
 fn matrix(linear: &Linear, sigma: f64, damped: bool) -> BlockCsr {

@@ -102,6 +102,10 @@ pub struct Limits {
     /// against rotation, `∫ σ_ij u_k,i u_k,j`. Stress does not stiffen bodies here.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub prestress: f64,
+    /// Residual of the equations of motion with a mode, or with steady vibrations, `√(rᵀ A⁻¹ r / xᵀ A x)` with the matrix `A` that is factored: the part of the displacements that is off, in
+    /// the norm of energy.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
+    pub mode_residual: f64,
     /// Displacement of each body, over the size of the model and the way that supports and obstacles prescribe. Beyond it a body has been lost. In
     /// motion bodies may fly as far as they like: there it is a finding.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
@@ -162,6 +166,7 @@ impl Default for Limits {
             local_rotation: 0.2,
             strain: None,
             prestress: 0.05,
+            mode_residual: 1e-3,
             displacement: 1.0,
             false_shear: 0.25,
             explicit_opening: 0.05,

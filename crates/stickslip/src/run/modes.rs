@@ -3,12 +3,14 @@
 use std::f64::consts::TAU;
 
 use super::simulation::{Simulation, view};
+use crate::assess::figures::MODE_RESIDUAL;
 use crate::assess::prestress::Shape;
 use crate::contact::interface::Steady;
 use crate::error::{Error, RunError};
 use crate::modal::{self, ModalOutcome, Mode};
 use crate::model::definition::Model;
 use crate::model::kick::{Course, Kick, Share};
+use crate::model::limits::GateMode;
 use crate::model::modal::Modal;
 use crate::results::observer::{Event, Observer};
 use crate::solve::work::Work;
@@ -124,6 +126,12 @@ impl Simulation {
         let (limits, gate) = (&self.model.quality, &mut self.summary.quality);
         let mut notes = Vec::new();
         view!(self).judge_prestress(&modes, limits, gate, &mut notes);
+        let t = self.frame.state.t;
+        let worst = (outcome.worst_residual()).filter(|_| limits.gate != GateMode::Off);
+        if let Some(worst) = worst {
+            let limit = limits.mode_residual;
+            gate.note(&MODE_RESIDUAL, "model", [worst, 1.0], limit, t);
+        }
         gate.gate = limits.gate;
         gate.settle();
         drop(modes);

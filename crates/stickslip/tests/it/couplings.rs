@@ -303,7 +303,9 @@ increments.fixed = 5
 fn couplings_beside_contact_and_friction_are_the_same_for_all_methods_and_units() {
     let sparse = record(&dragged([1.0, 1.0], "sparse"));
     let condensed = record(&dragged([1.0, 1.0], "condensed"));
-    let millimetres = record(&dragged([1e3, 1e-6], "sparse"));
+    // Other units whose ratio is a power of two leave rounding as it is, of which the last digits of a linear solution hang.
+    let (length, stress) = (1024.0, 1.0 / 1_048_576.0);
+    let smaller = record(&dragged([length, stress], "sparse"));
     let last = |r: &Record| r.increments.last().expect("a row").1.clone();
     let row = last(&sparse);
     // The block slides: the spring carries the limit of friction.
@@ -311,15 +313,15 @@ fn couplings_beside_contact_and_friction_are_the_same_for_all_methods_and_units(
     near(value(&row, "base.CFS1"), -0.25 * 2e6, 1.0);
     near(value(&row, "edge.U2"), value(&row, "top.U2"), 1e-12);
     near(value(&row, "ERESIDUAL"), 0.0, 1e-2 * value(&row, "ALLSE"));
-    for other in [last(&condensed), last(&millimetres)] {
+    for other in [last(&condensed), last(&smaller)] {
         let scale = value(&other, "top.U1") / value(&row, "top.U1");
         assert!(
-            (scale - 1.0).abs() < 1e-6 || (scale - 1e3).abs() < 1e-3,
+            (scale - 1.0).abs() < 1e-6 || (scale / length - 1.0).abs() < 1e-6,
             "{scale}"
         );
     }
     let iterations = |r: &Record| r.increments.iter().map(|i| i.0.len()).collect::<Vec<_>>();
-    assert_eq!(iterations(&sparse), iterations(&millimetres));
+    assert_eq!(iterations(&sparse), iterations(&smaller));
 }
 
 #[test]

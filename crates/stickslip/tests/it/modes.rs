@@ -172,6 +172,44 @@ fn a_free_body_has_six_modes_without_strain() {
     assert!(outcome.notes.iter().any(|n| n.contains("without strain")));
 }
 
+/// A stack that was pressed, has been let go and lies on one point: what nothing holds has no frequency, whatever rounding makes of it, and what strains keeps its own.
+#[test]
+fn modes_of_what_nothing_holds_any_more_are_found() {
+    for cells in [1, 2] {
+        let outcome = modes(&format!(
+            r#"
+format = 1
+model.space = "plane-stress"
+material.a.isotropic = {{ young = 5e5, poisson = 0.25, density = 9e-8 }}
+material.b.isotropic = {{ young = 1.2e6, poisson = 0.24, density = 9e-8 }}
+body.lower = {{ generate.rectangle = {{ from = [-70, -70], to = [70, 0], cells = [8, 4] }}, material = "a" }}
+body.upper = {{ generate.rectangle = {{ from = [-44, 0], to = [44, 70], cells = [6, 3] }}, material = "b" }}
+body.cap = {{ generate.rectangle = {{ from = [-44, 70], to = [44, 99], cells = [5, {cells}] }}, material = "a" }}
+interface.joint = {{ secondary = "upper.bottom", primary = "lower.top", friction.coulomb.mu = 0.45, roles = "as-named" }}
+interface.cap-tie = {{ secondary = "cap.bottom", primary = "upper.top", tied = true }}
+support.base = {{ set = "lower.bottom", x = 0, y = 0 }}
+support.guide = {{ set = "cap.top", x = 0.44, amplitude = "slide" }}
+amplitude.press.table = [[0, 0], [1, 1], [2, 0]]
+amplitude.slide.table = [[0, 0], [1, 1]]
+load.press = {{ set = "cap.top", pressure.value = 357, amplitude = "press" }}
+quality.gate = "off"
+step = [
+    {{ increments.fixed = 2 }},
+    {{ increments.fixed = 6 }},
+    {{ name = "slide", increments.fixed = 2, steady.velocity.joint = [2e4, 0] }},
+    {{ complex-modes.count = 4 }},
+]
+"#
+        ));
+        assert_eq!(outcome.modes.len(), 4, "{cells}");
+        for mode in &outcome.modes {
+            assert!(mode.residual < 1e-7, "{cells}: {}", mode.residual);
+        }
+        // The lower body by itself does not strain below this.
+        assert!(outcome.modes[0].frequency < 1.0 && outcome.modes[3].frequency > 4e3);
+    }
+}
+
 #[test]
 fn real_modes_are_those_of_the_dense_matrices() {
     let held = "support.left = { set = \"brick.left\", x = 0, y = 0, z = 0 }";

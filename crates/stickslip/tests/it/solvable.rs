@@ -216,3 +216,145 @@ step = [{ increments.fixed = 4, pretension.jack = { force = -5e3 } }]
     let pressed = row.get("joint.CFN2").expect("a force");
     assert!((4e3..5e3).contains(&pressed), "{pressed}");
 }
+
+/// A head that presses by a coupling, and by a support of the same points: where Newton's method fails a friction problem stands in, and equations hold in it too.
+#[test]
+fn friction_problems_know_what_equations_are_off() {
+    let head = |held: &str| {
+        let row = solved_at_once(&format!(
+            r#"
+format = 1
+model.space = "plane-strain"
+material.m = {{ isotropic = {{ young = 2e5, poisson = 0.35 }}, expansion = 4e-5 }}
+body.block = {{ generate.rectangle = {{ from = [-1.2, 0], to = [1.2, 1], cells = [8, 3] }}, material = "m" }}
+obstacle.floor.plane = {{ point = [0, 0], normal = [0, 1] }}
+interface.sole = {{ secondary = "block.bottom", primary = "floor", friction.coulomb.mu = 0.5, slip.regularised.epsilon = 2e-4 }}
+temperature.hot = {{ set = "block", uniform.value = 50 }}
+step = [{{ increments.fixed = 1 }}]
+{held}
+"#
+        ));
+        ["sole.CFN2", "sole.CPRESSMAX", "sole.ALLFD"].map(|name| row.get(name).expect("a figure"))
+    };
+    let coupled = head(
+        r#"
+reference.head.point = [0, 1]
+coupling.head.kinematic = { reference = "head", set = "block.top" }
+support.press = { set = "head", x = 0, y = -1e-2, rotation-z = 0 }"#,
+    );
+    let held = head("support.press = { set = \"block.top\", x = 0, y = -1e-2 }");
+    for (a, b) in coupled.iter().zip(held) {
+        assert!((a / b - 1.0).abs() < 1e-6, "{a} and {b}");
+    }
+}
+
+/// A rigid block on a layer with a period, both of whose ends contact holds as well: how stiff it is there does not hang on what else is fastened to the block, nor on nodes beside
+/// that it holds, too.
+#[test]
+fn a_period_beneath_a_rigid_block_costs_few_iterations() {
+    for bed in [
+        "",
+        r#"load.bed = { set = "upper.right", spring.stiffness = [7.7, 7.7] }"#,
+    ] {
+        let text = format!(
+            r#"
+format = 1
+model.space = "plane-strain"
+body.lower = {{ generate.rectangle = {{ from = [-4.4, -4], to = [4.4, 0], cells = [4, 2] }}, material = "m" }}
+body.upper = {{ generate.rectangle = {{ from = [-4.4, 0], to = [4.4, 3], cells = [7, 2] }}, material = "m", rigid = true }}
+material.m.isotropic = {{ young = 38.0, poisson = 0.3, density = 1.0 }}
+reference.head = {{ point = [0, 3] }}
+coupling.head.kinematic = {{ reference = "head", set = "upper.top" }}
+coupling.px.equation.terms = [{{ set = "lower.left", component = "x" }}, {{ set = "lower.right", component = "x", factor = -1 }}]
+coupling.py.equation.terms = [{{ set = "lower.left", component = "y" }}, {{ set = "lower.right", component = "y", factor = -1 }}]
+interface.joint = {{ secondary = "upper.bottom", primary = "lower.top", friction.coulomb.mu = 0.76, enforcement.perturbed-lagrangian = {{}} }}
+support.base = {{ set = "lower.bottom", x = 0, y = 0 }}
+support.press = {{ set = "head", x = 0, y = -3.5e-2, rotation-z = 0 }}
+{bed}
+step = [{{ increments.fixed = 1 }}]
+"#
+        );
+        let record = record(&text);
+        assert_eq!(record.cutbacks, 0, "{bed}");
+        let iterations = iterations(&record);
+        assert!(iterations[0] <= 8, "{bed}: {iterations:?}");
+    }
+}
+
+/// A face that is kept level by equations with its point on the axis, next to which there is little of the body: the other points are held to each other as firmly as they resist.
+#[test]
+fn a_face_is_kept_level_with_a_soft_point_in_few_iterations() {
+    let record = record(
+        r#"
+format = 1
+model.space = "axisymmetric"
+body.lower = { generate.rectangle = { from = [0, -2.6], to = [2.5, 0], cells = [2, 2], element = "tri6", diagonal = "up" }, material = "m" }
+body.upper = { generate.rectangle = { to = [2.5, 2.6], cells = [5, 2], element = "tri6", diagonal = "up" }, material = "m" }
+material.m.isotropic = { young = 2.75e12, poisson = 0.1 }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top" }
+set.corner = { of = "upper", point = [0, 2.6] }
+coupling.level.equation.terms = [{ set = "upper.top", component = "y" }, { set = "corner", component = "y", factor = -1 }]
+load.press = { set = "upper.top", pressure.value = 3.8e9 }
+support.axis = { set = "upper.left", x = 0 }
+support.lower = { set = "lower.left", x = 0 }
+support.base = { set = "lower.bottom", y = 0 }
+step = [{ increments.fixed = 1 }]
+"#,
+    );
+    let iterations = iterations(&record);
+    assert!(iterations[0] <= 12, "{iterations:?}");
+}
+
+/// A clamped block is pressed and let go to where it was before: nothing is left to which an out-of-balance force could be compared but what rounding leaves of the way.
+#[test]
+fn what_is_let_go_comes_back_to_nothing() {
+    let record = record(
+        r#"
+format = 1
+model.space = "plane-stress"
+body.b = { generate.rectangle = { from = [-2, 0], to = [2, 1.3], cells = [5, 2] }, material = "m" }
+material.m.isotropic = { young = 6.7e5, poisson = 0.16 }
+obstacle.floor.plane = { point = [0, 0], normal = [0, 1] }
+interface.joint = { secondary = "b.bottom", primary = "floor", normal.power-law = { c = 7.8e12, m = 2.65 }, enforcement.penalty = {} }
+reference.head = { point = [0, 1.3] }
+coupling.head.distributing = { reference = "head", set = "b.top" }
+support.clamp = { set = "b.right", x = 0, y = 0 }
+support.press = { set = "head", y = -1.6e-2, amplitude = "press" }
+support.guide = { set = "head", rotation-z = 0 }
+amplitude.press.table = [[0, 0], [1, 1], [2, 0]]
+solver.method = "sparse"
+step = [{ increments.fixed = 3 }, { increments.fixed = 6 }]
+"#,
+    );
+    assert_eq!(record.cutbacks, 0);
+    let force = |k: usize| record.increments[k].1.get("joint.CFN2").expect("a force");
+    let (pressed, left) = (force(2), force(8));
+    assert!(
+        pressed > 0.0 && left.abs() < 1e-9 * pressed,
+        "{pressed} {left}"
+    );
+}
+
+/// Three blocks that are pressed and dragged at once, with multigrid: a friction problem of all points costs more than an attempt, and no more than those that have come to nothing.
+#[test]
+fn after_attempts_in_vain_a_friction_problem_may_cost_as_much() {
+    let record = record(
+        r#"
+format = 1
+model.space = "solid"
+solver.method = "multigrid"
+body.lower = { generate.box = { from = [-2.45, -1.225, -1.8], to = [2.45, 1.225, 0], cells = [3, 2, 2] }, material = "soft" }
+body.upper = { generate.box = { from = [-2.45, -1.225, 0], to = [2.45, 1.225, 1.9], cells = [4, 2, 2] }, material = "hard" }
+body.cap = { generate.box = { from = [-2.7, -1.225, 1.9], to = [2.9, 1.225, 2.9], cells = [3, 2, 2] }, material = "soft" }
+material.soft.isotropic = { young = 6.22e9, poisson = 0.02 }
+material.hard.isotropic = { young = 1.11e10, poisson = 0.35 }
+interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb.mu = 0.323, enforcement.penalty = {}, discretisation.node-to-facet = {}, roles = "as-named" }
+interface.second = { secondary = "upper.top", primary = "cap.bottom", friction.coulomb.mu = 0.323, enforcement.penalty = {} }
+load.bed = { set = "upper.right", spring.stiffness = [7.4e7, 7.4e7, 7.4e7] }
+support.base = { set = "lower.bottom", x = 0, y = 0, z = 0 }
+support.press = { set = "cap.top", x = 1.47e-2, y = 0, z = -1.96e-2 }
+step = [{ increments.initial = 0.333 }]
+"#,
+    );
+    assert!(record.cutbacks <= 8, "{}", record.cutbacks);
+}

@@ -12,3 +12,4 @@ mod vectors;
 pub use arnoldi::{Found, Krylov, Nearest, arnoldi};
 pub use dense::{Complex, DenseLu, eigenvalues, general, pencil, products, sums, symmetric};
 pub use lanczos::{Pencil, RealModes, Wanted, lanczos};
+pub use vectors::noise;

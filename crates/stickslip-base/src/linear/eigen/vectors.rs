@@ -6,7 +6,7 @@ pub(super) fn axpy(a: f64, x: &[f64], y: &mut [f64]) {
 }
 
 /// Reproducible numbers in (-1, 1): a start that has a part of every vector.
-pub(super) fn noise(seed: &mut u64) -> f64 {
+pub fn noise(seed: &mut u64) -> f64 {
     *seed = seed
         .wrapping_mul(6364136223846793005)
         .wrapping_add(1442695040888963407);

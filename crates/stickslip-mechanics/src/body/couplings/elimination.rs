@@ -35,22 +35,54 @@ pub(super) fn compliance(held: &[Held], stiffness: impl Fn(&Held) -> f64) -> f64
     with.filter(|(_, k)| *k > 0.0).map(|(a, k)| a / k).sum()
 }
 
-/// Adds, by dof, the stiffness with which contact resists a displacement while the other points of the block give way as their bodies let them: that of contact
-/// in series with theirs. A tie between two soft bodies holds a point no more than the other body does, however firm it is itself.
-pub(super) fn add_stiffness(block: &ContactBlock, give: &[f64], out: &mut Vec<f64>) {
-    let n = block.dofs.len();
-    let most = block.dofs.iter().max().map_or(0, |dof| dof + 1);
-    if out.len() < most {
-        out.resize(most, 0.0);
-    }
-    let give = |k: usize| give.get(block.dofs[k]).copied().unwrap_or(0.0);
-    for q in 0..3 {
-        let (row, change) = (&block.rows[q * n..][..n], &block.change[q * n..][..n]);
-        let own = |k: usize| (row[k] * change[k]).abs();
-        // For springs in series: stiffness of contact times compliance of the bodies, over all points.
-        let all: f64 = (0..n).map(|k| own(k) * give(k)).sum();
-        for (k, &dof) in block.dofs.iter().enumerate() {
-            out[dof] += own(k) / (1.0 + all - own(k) * give(k));
+/// Most passes over all contact, and the growth of what they find from one to the next below which no more are made: `FIRM` leaves room for more than that.
+const MOST_PASSES: usize = 20;
+const GROWTH: f64 = 1.2;
+
+/// Writes, by dof, the stiffness with which contact resists a displacement while the other points of each block give way as their bodies and other blocks let
+/// them: that of the block in series with theirs. A tie between two soft bodies holds a point no more than the other body does, however firm it is itself; where
+/// more points meet a facet than it has nodes, each of these is held by what holds the others, and none gives way.
+///
+/// What other blocks do to a point follows from what they do to others in turn. It is found by passes in which a block sees what all but itself have done in the one
+/// before, as in the cavity method: where blocks make no loops that is exact, and where they do it is at most their own stiffness.
+pub(super) fn resistance(blocks: &[ContactBlock], give: &[f64], out: &mut Vec<f64>) {
+    let dofs = blocks.iter().flat_map(|block| &block.dofs);
+    let most = dofs.max().map_or(0, |dof| dof + 1);
+    out.clear();
+    out.resize(most, 0.0);
+    let mut before = out.clone();
+    let mut parts = vec![0.0; blocks.iter().map(|block| 3 * block.dofs.len()).sum()];
+    let mut gives = Vec::new();
+    for _ in 0..MOST_PASSES {
+        std::mem::swap(&mut before, out);
+        out.fill(0.0);
+        let mut parts = parts.as_mut_slice();
+        for block in blocks {
+            let n = block.dofs.len();
+            for q in 0..3 {
+                let (row, change) = (&block.rows[q * n..][..n], &block.change[q * n..][..n]);
+                let own = |k: usize| (row[k] * change[k]).abs();
+                let (mine, rest) = parts.split_at_mut(n);
+                parts = rest;
+                gives.clear();
+                gives.extend(block.dofs.iter().zip(&*mine).map(|(&dof, mine)| {
+                    let give = give.get(dof).copied().unwrap_or(0.0);
+                    give / (1.0 + give * (before[dof] - mine).max(0.0))
+                }));
+                // For springs in series: stiffness of contact times compliance of what else there is, over all points.
+                let all: f64 = (0..n).map(|k| own(k) * gives[k]).sum();
+                for (k, &dof) in block.dofs.iter().enumerate() {
+                    mine[k] = own(k) / (1.0 + all - own(k) * gives[k]);
+                    out[dof] += mine[k];
+                }
+            }
+        }
+        if out
+            .iter()
+            .zip(&before)
+            .all(|(now, then)| *now <= GROWTH * then)
+        {
+            break;
         }
     }
 }
@@ -71,13 +103,36 @@ mod tests {
         };
         let mut give = vec![0.0; 6];
         let mut out = Vec::new();
-        add_stiffness(&block, &give, &mut out);
+        let blocks = [block];
+        resistance(&blocks, &give, &mut out);
         assert_eq!([out[2], out[5]], [tie, tie]);
         give[5] = 1.0 / body;
-        out.clear();
-        add_stiffness(&block, &give, &mut out);
+        resistance(&blocks, &give, &mut out);
         let series = tie * body / (tie + body);
         assert!((out[2] - series).abs() < 1e-9 * series, "{}", out[2]);
         assert_eq!(out[5], tie);
+    }
+
+    /// Two nodes of a facet beneath a rigid face that meets it at three places: neither can give way to let the other go.
+    #[test]
+    fn what_other_points_hold_does_not_give_way() {
+        let contact = 1e6;
+        let meeting = |at: f64| {
+            let row = [1.0 - at, at];
+            let mut rows = vec![0.0; 6];
+            rows[..2].copy_from_slice(&row);
+            ContactBlock {
+                dofs: vec![0, 1],
+                change: rows.iter().map(|a| contact * a).collect(),
+                rows,
+                ..ContactBlock::default()
+            }
+        };
+        let mut out = Vec::new();
+        resistance(&[meeting(0.5)], &[1.0; 2], &mut out);
+        assert!(out[0] < 1.01, "{out:?}");
+        let three = [0.1, 0.5, 0.9].map(meeting);
+        resistance(&three, &[1.0; 2], &mut out);
+        assert!(out[0] > 0.5 * contact, "{out:?}");
     }
 }

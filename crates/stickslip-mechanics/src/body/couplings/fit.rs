@@ -2,7 +2,7 @@
 
 use super::Couplings;
 use super::all::Hold;
-use super::elimination::{Elimination, FIRM, Held, add_stiffness, compliance};
+use super::elimination::{Elimination, FIRM, Held, compliance, resistance};
 use crate::system::{ContactBlock, Links};
 
 impl Couplings {
@@ -17,6 +17,13 @@ impl Couplings {
         let mut hold = std::mem::take(&mut self.hold);
         let mut elimination = std::mem::take(&mut self.elimination);
         elimination.held.clear();
+        // How many rows move a displacement.
+        let mut shared = vec![0_u32; diagonal.len()];
+        for (.., row) in self.rows() {
+            for (dof, _) in links.moved(row.terms()) {
+                shared[dof] += 1;
+            }
+        }
         for (i, _, row) in self.rows() {
             let free = links.moved(row.terms()).into_iter();
             let free = free.filter(|(dof, a)| !fixed[*dof] && *a != 0.0);
@@ -27,6 +34,11 @@ impl Couplings {
                     bulk: diagonal[dof],
                 })
                 .partition(|h| links.of_hidden(h.dof / self.dim).is_some());
+            let own = |h: &Held| shared[h.dof] < 2;
+            let cells = match cells.iter().any(|h| own(h) && h.bulk > 0.0) {
+                true => cells.into_iter().filter(own).collect(),
+                false => cells,
+            };
             // What has no stiffness of its own, like a rigid body, follows whatever holds it.
             let norm = row.norm();
             let compliance = compliance(&cells, |h| h.bulk);
@@ -48,13 +60,14 @@ impl Couplings {
             });
         }
         elimination.links = (!links.is_empty()).then(|| links.clone());
-        let give = diagonal
-            .iter()
-            .zip(fixed)
-            .map(|(&k, &fixed)| match k > 0.0 {
-                true if !fixed => 1.0 / k,
+        let give = diagonal.iter().zip(fixed).enumerate();
+        let give = give.map(|(dof, (&k, &fixed))| {
+            let carried = links.of_hidden(dof / self.dim).is_some();
+            match k > 0.0 {
+                true if !fixed && !carried => 1.0 / k,
                 _ => 0.0,
-            });
+            }
+        });
         elimination.give = give.collect();
         elimination.stiffness.clear();
         self.elimination = elimination;
@@ -75,11 +88,17 @@ impl Couplings {
         stiffness.clear();
         stiffness.extend(self.hold.iter().map(|hold| hold.stiffness));
         if held.len() == stiffness.len() && !blocks.is_empty() {
-            contact.clear();
-            for block in blocks {
-                let moved = links.as_ref().and_then(|links| links.transform(block));
-                add_stiffness(moved.as_ref().unwrap_or(block), give, contact);
-            }
+            let moved: Vec<ContactBlock> = match links {
+                Some(links) => {
+                    let moved = blocks.iter().map(|block| links.transform(block));
+                    let both = moved.zip(blocks);
+                    both.map(|(moved, block)| moved.unwrap_or_else(|| block.clone()))
+                        .collect()
+                }
+                None => Vec::new(),
+            };
+            let blocks = if links.is_some() { &moved } else { blocks };
+            resistance(blocks, give, contact);
             let beside = |dof: usize| contact.get(dof).copied().unwrap_or(0.0);
             for (stiffness, held) in stiffness.iter_mut().zip(held) {
                 if held.iter().any(|h| beside(h.dof) > 0.0) {

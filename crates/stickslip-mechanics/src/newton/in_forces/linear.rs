@@ -64,10 +64,12 @@ impl Linear<'_, '_, '_> {
         self.attempt.system.dofs.dim.min(3)
     }
 
-    /// What is out of balance without the unknowns.
+    /// What is out of balance without the unknowns, and what brings multipliers of the rest, as those of equations, to where their rows hold.
     pub fn unbalanced(&self) -> Vec<f64> {
-        let both = self.rest.iter().zip(&self.held.residual);
-        both.map(|(a, b)| -(a + b)).collect()
+        let held = self.held.residual.iter().zip(&self.held.condensed);
+        let all = self.rest.iter().zip(held);
+        all.map(|(rest, (residual, condensed))| -(rest + residual + condensed))
+            .collect()
     }
 
     /// The displacements with forces at points, next to those by dof.

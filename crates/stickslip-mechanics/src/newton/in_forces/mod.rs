@@ -5,8 +5,8 @@
 //! and let go again: each solution is where the next one holds them (a proximal term, as that of anchors). The laws are those of the points at the
 //! last solution, linearised; Newton's method has the last word, with the laws themselves.
 //!
-//! Its unknowns are all points that are or may come to be pressed. Where a solution for each of them costs more than another attempt would, they are those
-//! that do not settle, and the others surround them as they are.
+//! Its unknowns are all points that are or may come to be pressed. Where a solution for each of them costs more than another attempt would, and more than those
+//! that have already been made in vain, they are those that do not settle, and the others surround them as they are.
 
 mod account;
 mod columns;

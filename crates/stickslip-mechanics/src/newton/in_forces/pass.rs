@@ -175,10 +175,15 @@ fn choose<'p>(
     let touching = places.iter().filter(|p| p.approaches(alone) || before(p));
     let touching: Vec<&Place> = touching.collect();
     let Attempt {
-        system, settings, ..
+        system,
+        settings,
+        in_vain,
+        ..
     } = &*linear.attempt;
     let solver = (MOST_UNKNOWNS as f64).powi(3);
-    let most = system.bulk.affordable(settings, solver).min(MOST_UNKNOWNS);
+    // As much again as has been spent in vain: that is never more than twice what the best choice would have cost.
+    let most = system.bulk.affordable(settings, solver);
+    let most = most.saturating_add(*in_vain).min(MOST_UNKNOWNS);
     if touching.len() * d <= most {
         return Some((touching, Vec::new()));
     }
