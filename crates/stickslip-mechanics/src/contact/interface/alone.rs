@@ -19,11 +19,10 @@ impl Interface {
         }
         let wants = Wants {
             tangent: true,
+            pressed: true,
             ..Wants::default()
         };
-        self.directives.all_stick = true;
         let evaluations = self.evaluate_all(stage, wants);
-        self.directives.all_stick = false;
         let found = evaluations.points.iter().enumerate();
         let found = found
             .map(|(i, e)| self.point_alone(i, e, evaluations.batch(i)))

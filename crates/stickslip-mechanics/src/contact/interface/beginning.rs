@@ -15,9 +15,7 @@ impl Interface {
         if !matches!(self.initial.start, Start::Offset | Start::Ramp) {
             return;
         }
-        let excluded = std::mem::take(&mut self.directives.excluded);
-        let gaps = self.gaps_at(stage);
-        self.directives.excluded = excluded;
+        let gaps = self.all_gaps_at(stage);
         let largest = match self.initial.start {
             Start::Offset => self.initial.within.unwrap_or(CLOSE),
             _ => Within::Distance(0.0),

@@ -1,6 +1,6 @@
 //! Points whose two sides are both clamped.
 
-use super::parts::Interface;
+use super::definition::InterfaceDefinition;
 use crate::math::{Vec3, dot, scale};
 
 /// Part of what lies opposite that has to be free to move for a clamped point to press on it.
@@ -9,33 +9,35 @@ const FREE: f64 = 0.5;
 /// Part of a motion along the normal that a node which is not clamped has left.
 const LEFT: f64 = 0.5;
 
-impl Interface {
-    /// Whether supports prescribe how all nodes of a point move along `normal`, and most of what lies opposite: then its gap is given, and a multiplier would act on the
-    /// little that is left. Where pressure follows from the gap it is known all the same. `sides`: nodes and their weights, positive on the secondary.
-    pub(super) fn clamped_pair(&self, sides: &[(usize, f64)], normal: Vec3) -> bool {
-        let size = dot(normal, normal).sqrt();
-        if self.clamped.is_empty() || size == 0.0 || !self.laws.needs_normal_stiffness() {
+/// Whether supports prescribe how all nodes of a point move along `normal`, and most of what lies opposite: then its gap is given, and a multiplier would act on the
+/// little that is left. Where pressure follows from the gap it is known all the same. `sides`: nodes and their weights, positive on the secondary.
+pub(super) fn clamped_pair(
+    definition: &InterfaceDefinition,
+    sides: &[(usize, f64)],
+    normal: Vec3,
+) -> bool {
+    let size = dot(normal, normal).sqrt();
+    if definition.clamped.is_empty() || size == 0.0 || !definition.laws.needs_normal_stiffness() {
+        return false;
+    }
+    let normal = scale(1.0 / size, normal);
+    let given = |node: usize| {
+        let axes = definition.clamped[node];
+        if definition.laws.tied {
+            return axes[..definition.dofs.dim] == [true; 3][..definition.dofs.dim];
+        }
+        let free: Vec3 = std::array::from_fn(|c| if axes[c] { 0.0 } else { normal[c] });
+        axes.contains(&true) && dot(free, free).sqrt() <= LEFT
+    };
+    let (mut own, mut sums) = (true, [0.0; 2]);
+    for &(node, w) in sides {
+        match node >= definition.primary_nodes {
+            true => own &= w == 0.0 || given(node),
+            false => sums[usize::from(given(node))] += w.abs(),
+        }
+        if !own {
             return false;
         }
-        let normal = scale(1.0 / size, normal);
-        let given = |node: usize| {
-            let axes = self.clamped[node];
-            if self.laws.tied {
-                return axes[..self.dofs.dim] == [true; 3][..self.dofs.dim];
-            }
-            let free: Vec3 = std::array::from_fn(|c| if axes[c] { 0.0 } else { normal[c] });
-            axes.contains(&true) && dot(free, free).sqrt() <= LEFT
-        };
-        let (mut own, mut sums) = (true, [0.0; 2]);
-        for &(node, w) in sides {
-            match node >= self.primary_nodes {
-                true => own &= w == 0.0 || given(node),
-                false => sums[usize::from(given(node))] += w.abs(),
-            }
-            if !own {
-                return false;
-            }
-        }
-        sums[0] <= FREE * (sums[0] + sums[1])
     }
+    sums[0] <= FREE * (sums[0] + sums[1])
 }

@@ -30,8 +30,6 @@ pub struct Directives {
     pub(in crate::contact) excluded: Vec<bool>,
     /// Points within the part of the reach in which contact is expected to stay.
     pub(in crate::contact) inner: Vec<bool>,
-    /// All points are pressed and stick, whatever the laws say: what they would do is asked, not what they do.
-    pub(in crate::contact) all_stick: bool,
     /// Cycles beside that at hand which it stands for: what slides wears as often as that in addition.
     pub(in crate::contact) skipped: f64,
     /// Sliding lasts; `None` where friction sees slips over increments as it does otherwise.
@@ -43,7 +41,6 @@ crate::keep!(Directives {
     impulses,
     excluded,
     inner,
-    all_stick,
     skipped,
     steady
 });

@@ -26,7 +26,8 @@ impl Interface {
     ) -> Evaluation {
         let glued = self.history.start.glued.get(i);
         let unglued = glued.is_some_and(|gap| gap.is_nan());
-        if unglued || self.directives.excluded.get(i) == Some(&true) {
+        let excluded = self.directives.excluded.get(i) == Some(&true);
+        if unglued || excluded && !scene.wants.everywhere {
             return Evaluation::open(f64::INFINITY);
         }
         match &self.primary {

@@ -6,6 +6,7 @@ use super::cache::Cache;
 use super::definition::Primary;
 use super::initial::GLUE;
 use super::parts::Interface;
+use super::scene::Wants;
 use crate::contact::kinematics::{Part, of_points};
 use crate::contact::mortar::{
     FACE_NODES, FaceIntegral, Merged, Scratch, Sides, correct, integrate, merged,
@@ -36,9 +37,7 @@ impl Interface {
             dt: stage.dt,
             rate: None,
         };
-        let excluded = std::mem::take(&mut self.directives.excluded);
-        let gaps = self.gaps_at(&still);
-        self.directives.excluded = excluded;
+        let gaps = self.all_gaps_at(&still);
         let within = self.initial.within.unwrap_or(GLUE);
         let near = |(gap, p): (f64, &ContactPoint)| {
             if gap.abs() <= within.of(p.size) {
@@ -52,7 +51,7 @@ impl Interface {
 
     /// Integrates over all faces at the coordinates of the evaluation, along normals that have turned as the surface has, at the last accepted state where it
     /// `holds_turns`; over the reference configuration, once, where sliding is small.
-    pub(super) fn integrate(&self, cache: &mut Cache, holds_turns: bool) {
+    pub(super) fn integrate(&self, cache: &mut Cache, wants: Wants) {
         let (Some(mortar), Primary::Facets(facets)) = (&self.mortar, &self.primary) else {
             return;
         };
@@ -70,7 +69,11 @@ impl Interface {
             }
             false => {}
         }
-        let turned = if holds_turns { &cache.before } else { &cache.x };
+        let turned = if wants.holds_turns {
+            &cache.before
+        } else {
+            &cache.x
+        };
         let reference = &self.reference;
         let (x, before, turn): (&[Vec3], &[Vec3], Mat3) = match frozen {
             true => (reference, &[], identity()),
@@ -95,7 +98,10 @@ impl Interface {
         // A face takes part as long as one of its points does. What is frozen must serve for ever.
         let excluded = &self.directives.excluded;
         let included = |points: &[usize]| {
-            frozen || excluded.is_empty() || points.iter().any(|&p| !excluded[p])
+            frozen
+                || wants.everywhere
+                || excluded.is_empty()
+                || points.iter().any(|&p| !excluded[p])
         };
         let integrals = &mut cache.integrals;
         integrals.resize_with(mortar.faces.len(), FaceIntegral::default);

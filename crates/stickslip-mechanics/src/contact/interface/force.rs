@@ -1,5 +1,6 @@
 //! The interface as Newton's method sees it: the only place that scatters contact into residual and tangent.
 
+use super::axles::hold_axles;
 use super::candidates::{pair_reference, update_candidates};
 use super::evaluation::Evaluations;
 use super::parts::Interface;
@@ -16,13 +17,12 @@ impl Force for Interface {
     fn prepare(&mut self, stage: &Stage) {
         self.ready();
         self.glue(stage);
-        self.lend(|interface, cache| {
-            pair_reference(interface, cache);
-            if interface.mortar.is_none() && !interface.kinematics.as_dyn().frozen() {
-                interface.coordinates_into(&stage.at.u, &mut cache.x);
-                update_candidates(interface, &mut cache.search, &cache.x);
-            }
-        });
+        let (definition, cache) = (&self.definition, &mut self.cache);
+        pair_reference(definition, cache);
+        if definition.mortar.is_none() && !definition.kinematics.as_dyn().frozen() {
+            definition.coordinates_into(&stage.at.u, &mut cache.x);
+            update_candidates(definition, &mut cache.search, &cache.x);
+        }
     }
 
     fn begin(&mut self) {
@@ -45,7 +45,7 @@ impl Force for Interface {
     }
 
     fn hold_back(&self, b: &[f64], out: &mut Assembler) {
-        self.hold_axles(b, out);
+        hold_axles(self, b, out);
     }
 
     fn settle(&mut self) {
@@ -184,7 +184,7 @@ impl Interface {
             tangent: out.wants_tangent,
             surrogate: out.wants_surrogate,
             holds_turns: out.holds_turns,
-            initial: false,
+            ..Wants::default()
         };
         let evaluations = self.evaluate_all(stage, wants);
         for (flips, e) in self.attempt.flips.iter_mut().zip(&evaluations.points) {

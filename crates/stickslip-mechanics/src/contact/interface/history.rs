@@ -82,11 +82,6 @@ pub(in crate::contact) struct Opposite {
 }
 
 impl Opposite {
-    pub fn clear(&mut self) {
-        self.ends.clear();
-        self.nodes.clear();
-    }
-
     /// Adds those of the next point.
     pub fn push(&mut self, nodes: impl Iterator<Item = (usize, f64)>) {
         self.nodes.extend(nodes);
@@ -232,7 +227,5 @@ mod tests {
             assert_eq!(opposite.of(i), nodes.as_slice());
         }
         assert!(opposite.of(3).is_empty());
-        opposite.clear();
-        assert!(opposite.of(0).is_empty());
     }
 }

@@ -139,9 +139,7 @@ impl Interface {
             way: f64::INFINITY,
             touching: Vec::new(),
         };
-        let mut search = std::mem::take(&mut self.cache.search);
-        update_candidates(&self.definition, &mut search, x);
-        self.cache.search = search;
+        update_candidates(&self.definition, &mut self.cache.search, x);
         let search = &self.cache.search;
         let feet = closest_of_all(&self.definition, x, search);
         let facets = self.facets();

@@ -7,6 +7,7 @@ use super::definition::Primary;
 use super::directives::Directives;
 use super::evaluation::{Evaluations, Trace};
 use super::parts::Interface;
+use super::scene::Wants;
 use crate::contact::mortar::Merged;
 use crate::math::Vec3;
 
@@ -77,7 +78,7 @@ impl Interface {
         self.lend(|interface, cache| {
             if paired {
                 pair_reference(interface, cache);
-                interface.integrate(cache, false);
+                interface.integrate(cache, Wants::default());
             }
             if cache.search.at() != searched.as_slice() {
                 cache.search = super::search::Search::default();
@@ -86,7 +87,7 @@ impl Interface {
             // The weights of a mortar's points are those of the last evaluation.
             if interface.mortar.is_some() && !paired && evaluated {
                 interface.coordinates_into(u, &mut cache.x);
-                interface.integrate(cache, false);
+                interface.integrate(cache, Wants::default());
             }
             // After the integrals, which look for facets anew where the last attempt did so far from `u`.
             if let (Some(mortar), Primary::Facets(facets)) = (&interface.mortar, &interface.primary)

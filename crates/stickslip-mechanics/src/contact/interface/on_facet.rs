@@ -1,6 +1,7 @@
 //! A contact point over a facet.
 
 use super::candidates::closest;
+use super::clamped::clamped_pair;
 use super::evaluate::Met;
 use super::evaluation::{Batch, Evaluation, Evaluations};
 use super::parts::Interface;
@@ -89,7 +90,7 @@ impl Interface {
         batch.sides.extend(self.own_weights(i));
         let theirs = facet.nodes.iter().copied().zip(foot.n.iter().map(|n| -n));
         batch.sides.extend(theirs);
-        if self.clamped_pair(&batch.sides[met.sides..], foot.normal) {
+        if clamped_pair(self, &batch.sides[met.sides..], foot.normal) {
             batch.sides.truncate(met.sides);
             return Evaluation::open(f64::INFINITY);
         }

@@ -57,7 +57,7 @@ impl Interface {
 
     /// Takes from the ground what points have worn off it over an increment, along their ways.
     pub(super) fn wear_ground(&mut self, volumes: &[f64], stage: &Stage) {
-        let Some(ground) = self.definition.hollows.ground.take() else {
+        let Some(ground) = &self.definition.hollows.ground else {
             return;
         };
         let ways = self.cache.last.points.iter().zip(volumes);
@@ -83,7 +83,7 @@ impl Interface {
         let gained: BTreeMap<Place, f64> = (lost.into_iter())
             .map(|(place, volume)| (place, volume / ground.chart.area(place, ground.extent)))
             .collect();
-        let felt = self.feels(&ground, &gained, volumes, (&to, stage.at.t));
+        let felt = self.feels(ground, &gained, volumes, (&to, stage.at.t));
         let depths = &mut self.history.ground;
         for (place, depth) in gained {
             *depths.places.entry(place).or_default() += depth;
@@ -93,8 +93,7 @@ impl Interface {
             *taken += volume;
         }
         depths.felt = felt;
-        self.show_ground(&ground, stage.at.t);
-        self.definition.hollows.ground = Some(ground);
+        self.show_ground(stage.at.t);
     }
 
     /// What lies open beneath each point at the end of an increment in which the ground `gained` depths, over what the point has taken per area: one where it stays on its track, little where
@@ -130,10 +129,10 @@ impl Interface {
     }
 
     /// Gives the nodes of the primary the depth of the matter that is there now.
-    fn show_ground(&mut self, ground: &Ground, t: f64) {
-        if self.rigid() {
+    fn show_ground(&mut self, t: f64) {
+        let (Some(ground), false) = (&self.definition.hollows.ground, self.rigid()) else {
             return;
-        }
+        };
         let gone = self.belt_gone(t);
         let places = &self.history.ground.places;
         let depth = |x: &Vec3| -> f64 {

@@ -1,5 +1,6 @@
 //! A contact point of a mortar.
 
+use super::clamped::clamped_pair;
 use super::definition::Primary;
 use super::evaluate::Met;
 use super::evaluation::{Batch, Evaluation};
@@ -30,7 +31,7 @@ impl Interface {
             batch.sides.truncate(sides);
             return Evaluation::open(f64::INFINITY);
         };
-        if self.clamped_pair(&batch.sides[sides..], sums.normal) {
+        if clamped_pair(self, &batch.sides[sides..], sums.normal) {
             batch.sides.truncate(sides);
             return Evaluation::open(f64::INFINITY);
         }

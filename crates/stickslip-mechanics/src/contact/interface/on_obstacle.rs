@@ -1,5 +1,6 @@
 //! A contact point over an obstacle.
 
+use super::clamped::clamped_pair;
 use super::evaluate::Met;
 use super::evaluation::{Batch, Evaluation};
 use super::initial::TOUCHING;
@@ -63,7 +64,7 @@ impl Interface {
             sides: batch.sides.len(),
         };
         batch.sides.extend(self.own_weights(i));
-        if self.clamped_pair(&batch.sides[met.sides..], batch.stencil.normal) {
+        if clamped_pair(self, &batch.sides[met.sides..], batch.stencil.normal) {
             batch.sides.truncate(met.sides);
             return Evaluation::open(f64::INFINITY);
         }

@@ -27,7 +27,7 @@ impl Interface {
             cache.in_space = InSpace::default();
         }
         if self.mortar.is_some() {
-            self.integrate(cache, wants.holds_turns);
+            self.integrate(cache, wants);
         } else if !self.kinematics.as_dyn().frozen() {
             enclose(&self.definition, &cache.x, &mut cache.bounds);
         }
@@ -84,9 +84,22 @@ impl Interface {
 
     /// Gaps of all points at a stage, without touching the history; infinite where nothing lies opposite.
     pub fn gaps_at(&mut self, stage: &Stage) -> Vec<f64> {
+        self.gaps_with(stage, Wants::default())
+    }
+
+    /// The same of all points, those too that do not take part.
+    pub(super) fn all_gaps_at(&mut self, stage: &Stage) -> Vec<f64> {
+        let wants = Wants {
+            everywhere: true,
+            ..Wants::default()
+        };
+        self.gaps_with(stage, wants)
+    }
+
+    fn gaps_with(&mut self, stage: &Stage, wants: Wants) -> Vec<f64> {
         self.prepare(stage);
         self.begin();
-        let evaluations = self.evaluate_all(stage, Wants::default());
+        let evaluations = self.evaluate_all(stage, wants);
         let gap = |e: &Evaluation| if e.over { e.gap } else { f64::INFINITY };
         let gaps = evaluations.points.iter().map(gap).collect();
         self.cache.trial = evaluations;

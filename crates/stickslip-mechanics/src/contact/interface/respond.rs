@@ -51,6 +51,7 @@ impl Interface {
             // A law of the program is asked once, before it is known how much of the way is slid.
             worn: match scene.query {
                 LawQuery::Nothing => Worn::default(),
+                _ if scene.wants.pressed => Worn::default(),
                 _ => {
                     let path = length(stencil.frame_before, slid);
                     self.softness(i, (path, scene.dt), before.pressure)
@@ -58,7 +59,7 @@ impl Interface {
             },
             closing: self.closing(i, stencil.gap, scene.dt),
             sticking: before.status != Status::Slip,
-            pressed: self.directives.all_stick,
+            pressed: scene.wants.pressed,
             answers: scene.answers.get(i).copied().unwrap_or_default(),
         };
         self.see_rate(scene, &slots, batch, &mut at);

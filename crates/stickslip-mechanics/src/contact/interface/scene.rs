@@ -13,6 +13,10 @@ pub(in crate::contact) struct Wants {
     pub surrogate: bool,
     /// See [`Assembler`](crate::system::Assembler).
     pub holds_turns: bool,
+    /// All points are pressed and stick, whatever the laws say: what they would do is asked, not what they do.
+    pub pressed: bool,
+    /// Points that do not take part are asked as well.
+    pub everywhere: bool,
     /// Tractions are those of the laws, not of multipliers: what acts before anything has been solved.
     pub initial: bool,
 }

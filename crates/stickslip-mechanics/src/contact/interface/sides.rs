@@ -1,5 +1,6 @@
 //! The two sides of an interface: which nodes a point hangs on, for what area it stands, and what sliding leaves on them.
 
+use super::history::Opposite;
 use super::parts::Interface;
 
 impl Interface {
@@ -19,8 +20,7 @@ impl Interface {
 
     /// Takes note of them in the history.
     pub(super) fn note_opposite(&mut self) {
-        let mut opposite = std::mem::take(&mut self.history.opposite);
-        opposite.clear();
+        let mut opposite = Opposite::default();
         for i in 0..self.points.len() {
             opposite.push(self.facet_weights(i));
         }

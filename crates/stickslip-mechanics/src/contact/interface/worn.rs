@@ -61,7 +61,7 @@ impl Interface {
     /// By how much a point that slides a `path` over a time wears both sides away, near a pressure.
     pub(super) fn softness(&self, i: usize, (path, dt): (f64, f64), pressure: f64) -> Worn {
         let laws = &self.laws;
-        if !laws.wears_away() || laws.feedback != Feedback::Implicit || self.directives.all_stick {
+        if !laws.wears_away() || laws.feedback != Feedback::Implicit {
             return Worn::default();
         }
         let h = &self.history.points[i];
@@ -104,6 +104,9 @@ impl Interface {
         at: &mut LawInput,
     ) -> Response {
         let mut response = self.laws.respond(stencil, at);
+        if at.pressed {
+            return response;
+        }
         for _ in 0..EVALUATIONS {
             let path = rubbed(&self.definition, &response, stencil.frame_before, moved);
             let pressure = response.traction[0].max(0.0);
