@@ -428,9 +428,9 @@ fn judge_between(
 pub struct InterfaceSummary {
     /// Name.
     pub name: String,
-    /// Whether contact points are those of the side that the problem calls primary, see [`Interface::exchanged`].
+    /// Whether contact points are those of the side that the problem calls primary, see [`InterfaceDefinition::exchanged`].
     ///
-    /// [`Interface::exchanged`]: crate::contact::interface::Interface::exchanged
+    /// [`InterfaceDefinition::exchanged`]: crate::contact::interface::InterfaceDefinition::exchanged
     pub exchanged: bool,
     /// Whether its surfaces are tied: then it has tractions, and no pressure, no points that stick, slip or open and no friction.
     pub tied: bool,

@@ -28,8 +28,8 @@ fn run(text: &str) -> Simulation {
 
 /// Places of the track, in its own coordinates, and their depths.
 fn track(simulation: &Simulation) -> Vec<([f64; 3], f64)> {
-    let interface = &simulation.contact.interfaces[0];
-    let sheet = look::opposite_sheet(interface.view(), &simulation.frame.state.u);
+    let interface = support::contact(simulation);
+    let sheet = look::opposite_sheet(interface, &simulation.frame.state.u);
     let sheet = sheet.expect("something wears");
     let worn = sheet.fields.get("CWEAR").expect("depths").values.clone();
     sheet.points.into_iter().zip(worn).collect()
@@ -37,9 +37,9 @@ fn track(simulation: &Simulation) -> Vec<([f64; 3], f64)> {
 
 /// Volumes of the law are those of both depths to rounding; their ratio is that of the rates.
 fn volumes(simulation: &Simulation, what: &str) -> f64 {
-    let interface = &simulation.contact.interfaces[0];
-    let lost = look::wear(interface.view()).expect("it is followed").volume;
-    for (lost, hollowed) in lost.iter().zip(look::hollowed(interface.view())) {
+    let interface = support::contact(simulation);
+    let lost = look::wear(interface).expect("it is followed").volume;
+    for (lost, hollowed) in lost.iter().zip(look::hollowed(interface)) {
         close(hollowed, *lost, 1e-12, what);
     }
     close(lost[1], TRACK / PIN * lost[0], 1e-12, what);
@@ -133,7 +133,7 @@ fn a_track_wears_by_the_width_of_the_pin_each_time_it_passes() {
             assert!((-0.06..3.56).contains(x), "{what}: {x}");
         }
         if even {
-            let worn = &look::wear(simulation.contact.interfaces[0].view())
+            let worn = &look::wear(support::contact(&simulation))
                 .expect("worn")
                 .depth;
             close(worn[0], PIN * PRESSURE * path, 2e-4, &what);
@@ -333,7 +333,7 @@ fn a_scar_without_elasticity_has_the_shape_of_what_digs_it() {
     let roller = "cylinder = { centre = [0, 6], radius = 6 }, motion.rotation = { centre = [0, 6]";
     let block = "generate.rectangle = { from = [-0.5, -0.25], to = [0.5, 0], cells = [100, 4] }";
     let simulation = dug("plane-strain", block, roller, (18.5, 300.0));
-    let depth = look::wear(simulation.contact.interfaces[0].view())
+    let depth = look::wear(support::contact(&simulation))
         .expect("worn")
         .depth[0];
     let (mut low, mut high) = (0.0_f64, 0.5);
@@ -349,10 +349,7 @@ fn a_scar_without_elasticity_has_the_shape_of_what_digs_it() {
     assert!((exact / 3.5229e-3 - 1.0).abs() < 1e-4, "{exact}");
     println!("roller: {depth} for {exact}");
     close(depth, exact, 5e-3, "roller");
-    let (names, columns) = look::table(
-        simulation.contact.interfaces[0].view(),
-        &simulation.frame.state.u,
-    );
+    let (names, columns) = look::table(support::contact(&simulation), &simulation.frame.state.u);
     let column = |name: &str| &columns[names.iter().position(|n| n == name).expect("a column")];
     let worn = column("x")
         .iter()
@@ -368,7 +365,7 @@ fn a_scar_without_elasticity_has_the_shape_of_what_digs_it() {
     let ball = "sphere = { centre = [0, 0, 50], radius = 50 }, motion.rotation = { centre = [0, 0, 50], axis = [0, 1, 0]";
     let block = "generate.box = { from = [-1, -1, -0.25], to = [1, 1, 0], cells = [24, 24, 1] }";
     let simulation = dug("solid", block, ball, (100.0, 26.0));
-    let depth = look::wear(simulation.contact.interfaces[0].view())
+    let depth = look::wear(support::contact(&simulation))
         .expect("worn")
         .depth[0];
     let volume = 2.9e-8 * 100.0 * 26.0 * 50.0;

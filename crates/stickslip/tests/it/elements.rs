@@ -495,10 +495,8 @@ up-front = {{ set = "up.front", y = 0 }}
         let mut simulation: Simulation =
             support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
         simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
-        let (names, columns) = look::table(
-            simulation.contact.interfaces[0].view(),
-            &simulation.frame.state.u,
-        );
+        let (names, columns) =
+            look::table(support::contact(&simulation), &simulation.frame.state.u);
         let pressure = &columns[names.iter().position(|n| n == "CPRESS").unwrap()];
         for p in pressure {
             assert!((p / 0.01 - 1.0).abs() < 1e-6, "{formulation} {cells}: {p}");

@@ -359,8 +359,8 @@ fn contact_forces_at_nodes_are_those_that_bodies_resist() {
 
 /// Largest distance of |q| / p from μ over the points that slip, and how many slip.
 fn ratio(simulation: &Simulation, mu: f64) -> (f64, usize) {
-    let interface = &simulation.contact.interfaces[0];
-    let (names, columns) = look::table(interface.view(), &simulation.frame.state.u);
+    let interface = support::contact(simulation);
+    let (names, columns) = look::table(interface, &simulation.frame.state.u);
     let column = |name: &str| {
         let k = names.iter().position(|n| n == name).expect(name);
         &columns[k]
@@ -425,8 +425,8 @@ fn what_slips_on_a_drum_or_a_ball_carries_its_limit_for_turns_of_any_size() {
             // With the smallest turn the pad has not yet given way as far as it will.
             if text.contains("plane-strain") && angle >= 0.5 {
                 // All of the shear acts at the radius of the drum, across the direction to its centre.
-                let interface = &simulation.contact.interfaces[0];
-                let force = look::resultant(interface.view(), &simulation.frame.state.u);
+                let interface = support::contact(&simulation);
+                let force = look::resultant(interface, &simulation.frame.state.u);
                 let torque = (force.moment[2] - force.shear[0] - force.normal[0]).abs();
                 assert!(
                     (torque - 0.3 * force.total).abs() < 2e-3 * torque,
@@ -774,11 +774,11 @@ step = [{{ increments.fixed = 2 }}, {{ increments.fixed = 2 }}]
             below = s - 1.0,
         );
         let (_, simulation) = run(&support::problem(&text));
-        let interface = &simulation.contact.interfaces[0];
-        let (names, columns) = look::table(interface.view(), &simulation.frame.state.u);
+        let interface = support::contact(&simulation);
+        let (names, columns) = look::table(interface, &simulation.frame.state.u);
         let column =
             |name: &str| columns[names.iter().position(|n| n == name).expect(name)].clone();
-        let of = look::resultant(interface.view(), &simulation.frame.state.u);
+        let of = look::resultant(interface, &simulation.frame.state.u);
         let force = add(of.normal, of.shear);
         let place = interface.place(&interface.points[0]);
         // Counted from the top of the drum.

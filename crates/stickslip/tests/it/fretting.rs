@@ -89,10 +89,7 @@ fn wave(x: f64) -> f64 {
 
 /// The part of the pressure along the wave, over its mean.
 fn part(simulation: &Simulation) -> f64 {
-    let (names, columns) = look::table(
-        simulation.contact.interfaces[0].view(),
-        &simulation.frame.state.u,
-    );
+    let (names, columns) = look::table(support::contact(simulation), &simulation.frame.state.u);
     let column = |name: &str| &columns[names.iter().position(|n| n == name).expect("a column")];
     let mut sums = [0.0; 2];
     let rows = column("x")
@@ -337,10 +334,8 @@ fn partial_slip_wears_until_only_what_sticks_carries() {
             energy[energy.len() - 1] < 1e-2 * energy[0],
             "{size}: {energy:?}"
         );
-        let (names, columns) = look::table(
-            simulation.contact.interfaces[0].view(),
-            &simulation.frame.state.u,
-        );
+        let (names, columns) =
+            look::table(support::contact(&simulation), &simulation.frame.state.u);
         let column = |name: &str| &columns[names.iter().position(|n| n == name).expect("a column")];
         let (x, pressure, force) = (column("x"), column("CPRESS"), column("CNORMF"));
         let pressed = x.iter().zip(pressure).filter(|(_, p)| **p > 0.0);
@@ -483,10 +478,10 @@ step = [{{ increments.fixed = 1 }}, {{ cycles = {{ count = 30, jump = {jump} }},
 
 /// Depths and volumes that cycles have worn off, of each surface.
 fn worn_off(simulation: &Simulation) -> [(Vec<f64>, f64); 2] {
-    let interface = &simulation.contact.interfaces[0];
+    let interface = support::contact(simulation);
     let mut sides = [(Vec::new(), 0.0), (Vec::new(), 0.0)];
-    let places = look::wear_places(interface.view());
-    for (volume, (primary, area)) in look::taken(interface.view()).into_iter().zip(places) {
+    let places = look::wear_places(interface);
+    for (volume, (primary, area)) in look::taken(interface).into_iter().zip(places) {
         let side = &mut sides[usize::from(primary)];
         side.1 += volume;
         if area > 0.0 {

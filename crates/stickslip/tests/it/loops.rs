@@ -1,6 +1,7 @@
 //! Loops of partial slip against Cattaneo and Mindlin: the shear along the contact on the way there and back, and a ball over a thousand cycles.
 
 use crate::fretting::{Cycles, FORCE, LOAD, MU, cylinder, hertz};
+use crate::support;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::path::Path;
@@ -9,10 +10,7 @@ use stickslip::run::Simulation;
 
 /// A column of the contact.
 fn column(simulation: &Simulation, name: &str) -> Vec<f64> {
-    let (names, columns) = look::table(
-        simulation.contact.interfaces[0].view(),
-        &simulation.frame.state.u,
-    );
+    let (names, columns) = look::table(support::contact(simulation), &simulation.frame.state.u);
     let found = names.into_iter().zip(columns).find(|(n, _)| n == name);
     found.unwrap_or_else(|| panic!("no column {name}")).1
 }

@@ -187,8 +187,8 @@ fn deviation(folder: &Path, text: &str, pressure: f64, shear: Option<f64>) -> f6
     let mut simulation = Simulation::new(model).unwrap_or_else(|e| panic!("{e}"));
     simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
     let mut worst: f64 = 0.0;
-    for interface in &simulation.contact.interfaces {
-        let (names, columns) = look::table(interface.view(), &simulation.frame.state.u);
+    for interface in simulation.view().contacts() {
+        let (names, columns) = look::table(interface, &simulation.frame.state.u);
         let column = |name: &str| &columns[names.iter().position(|n| n == name).unwrap()];
         assert!(!column("CPRESS").is_empty());
         for (p, s) in column("CPRESS").iter().zip(column("CSHEAR1")) {
@@ -387,8 +387,8 @@ step = [{{ increments = {{ fixed = 2 }} }}]
     let (force, radius) = (1000.0, 1.0 / (0.1 - curvature));
     let a = f64::cbrt(0.75 * force * radius / (1e5 / (1.0 - 0.09)));
     let peak = 1.5 * force / (std::f64::consts::PI * a * a);
-    let interface = &simulation.contact.interfaces[0];
-    let (names, columns) = look::table(interface.view(), &simulation.frame.state.u);
+    let interface = support::contact(&simulation);
+    let (names, columns) = look::table(interface, &simulation.frame.state.u);
     let column = |name: &str| &columns[names.iter().position(|n| n == name).unwrap()];
     let mut worst: f64 = 0.0;
     let mut points = 0;
@@ -403,7 +403,7 @@ step = [{{ increments = {{ fixed = 2 }} }}]
     assert!(simulation.summary.quality.met);
     (
         worst,
-        look::resultant(interface.view(), &simulation.frame.state.u).total,
+        look::resultant(interface, &simulation.frame.state.u).total,
     )
 }
 
@@ -449,8 +449,8 @@ step = [{{ increments = {{ fixed = 2 }} }}]
         // E* = E / (1 - ν²) on what is as good as rigid; a³ = 3 F R / 4 E*, p₀ = 3 F / 2 π a².
         let a = f64::cbrt(0.75 * 1000.0 * 10.0 / (1e5 / (1.0 - 0.09)));
         let peak = 1500.0 / (std::f64::consts::PI * a * a);
-        let interface = &simulation.contact.interfaces[0];
-        let (names, columns) = look::table(interface.view(), &simulation.frame.state.u);
+        let interface = support::contact(&simulation);
+        let (names, columns) = look::table(interface, &simulation.frame.state.u);
         let column = |name: &str| &columns[names.iter().position(|n| n == name).unwrap()];
         let mut points = 0;
         for (x, p) in column("x").iter().zip(column("CPRESS")) {
@@ -462,7 +462,7 @@ step = [{{ increments = {{ fixed = 2 }} }}]
             }
         }
         assert!(points >= 10, "{element}: {points}");
-        let force = look::resultant(interface.view(), &simulation.frame.state.u).total;
+        let force = look::resultant(interface, &simulation.frame.state.u).total;
         assert!((force / 1000.0 - 1.0).abs() < 1e-3, "{element}: {force}");
     }
 }
@@ -484,12 +484,12 @@ step = [{ increments.fixed = 1 }]
     let mut simulation = support::build(&problem).unwrap_or_else(|e| panic!("{e}"));
     simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
     let mut fields = stickslip::system::Fields::default();
-    for interface in &simulation.contact.interfaces {
-        look::fields(interface.view(), &mut fields);
+    for interface in simulation.view().contacts() {
+        look::fields(interface, &mut fields);
     }
     let points = &simulation.model.mesh.points;
-    for (interface, sign) in simulation.contact.interfaces.iter().zip([1.0, -1.0]) {
-        let (names, columns) = look::table(interface.view(), &simulation.frame.state.u);
+    for (interface, sign) in simulation.view().contacts().zip([1.0, -1.0]) {
+        let (names, columns) = look::table(interface, &simulation.frame.state.u);
         let column = |name: &str| &columns[names.iter().position(|n| n == name).unwrap()];
         let set = if sign > 0.0 {
             "upper.bottom"
@@ -559,10 +559,10 @@ quality.gate = "off"
     let mut simulation = support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
     let what = format!("{element}, {interface}");
     (simulation.run(&mut [])).unwrap_or_else(|e| panic!("{what}: {e}"));
-    let interface = &simulation.contact.interfaces[0];
+    let interface = support::contact(&simulation);
     let u = &simulation.frame.state.u;
-    let shear = stickslip::math::norm(look::resultant(interface.view(), u).shear);
-    let b = look::balance(interface.view(), u);
+    let shear = stickslip::math::norm(look::resultant(interface, u).shear);
+    let b = look::balance(interface, u);
     assert!(shear > 0.05 * b.scale, "{what}: {shear} of {}", b.scale);
     let [force, moment] = [b.force, b.moment].map(stickslip::math::norm);
     [force / b.scale, moment / (b.scale * b.size)]
@@ -628,8 +628,8 @@ quality.gate = "off"
         let mut simulation =
             support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
         simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
-        let interface = &simulation.contact.interfaces[0];
-        let r = look::resultant(interface.view(), &simulation.frame.state.u);
+        let interface = support::contact(&simulation);
+        let r = look::resultant(interface, &simulation.frame.state.u);
         let part = if half { 2.0 } else { 1.0 };
         [r.normal[1], r.normal[2], r.shear[1], r.shear[2]].map(|f| part * f)
     };

@@ -270,8 +270,8 @@ step = [{{ name = "press", increments = {{ fixed = 2 }} }}]"#
 const AS_NAMED: &str = ", roles = \"as-named\"";
 
 fn force(simulation: &Simulation) -> f64 {
-    let interface = &simulation.contact.interfaces[0];
-    look::resultant(interface.view(), &simulation.frame.state.u).total
+    let interface = support::contact(simulation);
+    look::resultant(interface, &simulation.frame.state.u).total
 }
 
 #[test]
@@ -315,11 +315,11 @@ fn the_finer_side_is_secondary_whichever_is_named_so() {
         assert!(!named.summary.interfaces[0].exchanged && other.summary.interfaces[0].exchanged);
         assert!(other.summary.quality.met, "{:#?}", violated(&other));
         let [a, b] = [&named, &other].map(|s| {
-            let i = &s.contact.interfaces[0];
+            let i = support::contact(s);
             (
-                look::resultant(i.view(), &s.frame.state.u),
-                look::wear(i.view()).expect("is followed"),
-                look::centre_and_normal(i.view(), &s.frame.state.u),
+                look::resultant(i, &s.frame.state.u),
+                look::wear(i).expect("is followed"),
+                look::centre_and_normal(i, &s.frame.state.u),
             )
         });
         let same = |p: [f64; 3], q: [f64; 3], size: f64| {
@@ -430,15 +430,15 @@ interface.joint = { secondary = "lower.top", primary = "upper.bottom", roles = "
 support.base = { set = "lower.bottom", x = 0, y = 0, z = 0 }
 support.press = { set = "upper.top", x = 0, y = 0, z = -0.1 }
 step = [{ name = "press", increments = { fixed = 1 } }]"#);
-    let interface = &simulation.contact.interfaces[0];
+    let interface = support::contact(&simulation);
     let between = look::between(
-        interface.view(),
+        interface,
         &simulation.frame.state.u,
         simulation.frame.state.t,
     );
     // The bodies have come nearer by 0.1, and a layer of cells is all of the lower body: under the largest pressure it would be shorter by 0.49.
     assert!(between.penetration > 0.03, "{between:?}");
-    let layer = look::quality(interface.view()).layer;
+    let layer = look::quality(interface).layer;
     assert!((0.05..0.25).contains(&layer), "{layer}");
     trips(&simulation, "unseen-to-approach");
 }
@@ -511,8 +511,8 @@ fn small_sliding_says_by_how_much_surfaces_have_turned() {
     let simulation = discs(", kinematics.small-sliding = {}");
     let finding = turned(&simulation).expect("a finding");
     // Round surfaces become flat where they press: at x the normal of the start is off by x over R, up to the last points that press by a tenth.
-    let interface = &simulation.contact.interfaces[0];
-    let (names, columns) = look::table(interface.view(), &simulation.frame.state.u);
+    let interface = support::contact(&simulation);
+    let (names, columns) = look::table(interface, &simulation.frame.state.u);
     let column = |name: &str| &columns[names.iter().position(|n| n == name).unwrap()];
     let peak = column("CPRESS").iter().fold(0.0, |m: f64, p| m.max(*p));
     let pressed = column("x").iter().zip(column("CPRESS"));
@@ -940,8 +940,8 @@ support.base = { set = "lower.flat", x = 0, y = 0 }
 support.press = { set = "upper.flat", x = 0, y = -0.169 }
 step = [{ increments.fixed = 1 }]
 "#);
-    let interface = &simulation.contact.interfaces[0];
-    let (names, columns) = look::table(interface.view(), &simulation.frame.state.u);
+    let interface = support::contact(&simulation);
+    let (names, columns) = look::table(interface, &simulation.frame.state.u);
     let status = names.iter().position(|n| n == "CSTATUS").expect("CSTATUS");
     assert!(columns[status].contains(&2.0), "nothing slips");
     let figures = &simulation.summary.quality.figures;

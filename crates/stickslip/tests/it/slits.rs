@@ -152,9 +152,9 @@ fn the_faces_of_a_closed_slit_slide_as_in_an_infinite_plate() {
         let (s, c) = ANGLE.to_radians().sin_cos();
         let pressure = STRESS * s * s;
         let driving = STRESS * s * c - pressure / 3.0_f64.sqrt();
-        let interface = &simulation.contact.interfaces[0];
+        let interface = support::contact(&simulation);
         let state = &simulation.frame;
-        let sheet = look::sheet(interface.view(), &state.state.u, state.state.t);
+        let sheet = look::sheet(interface, &state.state.u, state.state.t);
         let field = |name: &str| {
             let found = sheet.fields.all.iter().find(|f| f.name == name);
             &found.unwrap_or_else(|| panic!("no field {name}")).values

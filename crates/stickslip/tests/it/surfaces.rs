@@ -1,5 +1,6 @@
 //! The surfaces of interfaces as files: what stands on them is what the tables and the history say.
 
+use crate::support;
 use crate::support::{build, folder, problem};
 use stickslip::contact::look;
 use stickslip::io::vtu::Grid;
@@ -160,9 +161,9 @@ step = [{}]
 "#;
     let mut simulation = build(&problem(text)).unwrap_or_else(|e| panic!("{e}"));
     simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
-    let interface = &simulation.contact.interfaces[0];
+    let interface = support::contact(&simulation);
     let frame = &simulation.frame.state;
-    let sheet = look::sheet(interface.view(), &frame.u, frame.t);
+    let sheet = look::sheet(interface, &frame.u, frame.t);
     let names: Vec<&str> = sheet.fields.all.iter().map(|f| f.name.as_str()).collect();
     assert!(
         !names.iter().any(|n| n.starts_with('C') && *n != "CNORMAL"),

@@ -229,10 +229,7 @@ wear.archard = {{ coefficient = {k} }}
 
 /// Part of the pressure at the nodes along a wave: the other waves have none in common with it.
 fn part(simulation: &Simulation, wave: impl Fn(f64) -> f64) -> f64 {
-    let (names, columns) = look::table(
-        simulation.contact.interfaces[0].view(),
-        &simulation.frame.state.u,
-    );
+    let (names, columns) = look::table(support::contact(simulation), &simulation.frame.state.u);
     let column = |name: &str| {
         let k = names.iter().position(|n| n == name);
         &columns[k.expect("a column")]
@@ -452,9 +449,9 @@ fn what_both_surfaces_lose_is_what_the_law_says() {
     ] {
         let simulation = slides(dim, elements, more);
         let what = format!("{dim}D {elements:?} {more}");
-        let interface = &simulation.contact.interfaces[0];
-        let lost = look::wear(interface.view()).expect("is followed").volume;
-        for (lost, hollowed) in lost.iter().zip(look::hollowed(interface.view())) {
+        let interface = support::contact(&simulation);
+        let lost = look::wear(interface).expect("is followed").volume;
+        for (lost, hollowed) in lost.iter().zip(look::hollowed(interface)) {
             assert!(
                 (hollowed / lost - 1.0).abs() < 1e-12,
                 "{what}: {hollowed} {lost}"

@@ -295,9 +295,9 @@ fn both_surfaces_wear_in_motion_as_they_do_at_rest() {
         for feedback in ["", "wear-feedback = \"explicit\""] {
             let what = format!("{dynamic} {feedback}");
             let simulation = driven(dynamic, feedback);
-            let interface = &simulation.contact.interfaces[0];
-            let lost = look::wear(interface.view()).expect("is followed").volume;
-            for (lost, hollowed) in lost.iter().zip(look::hollowed(interface.view())) {
+            let interface = support::contact(&simulation);
+            let lost = look::wear(interface).expect("is followed").volume;
+            for (lost, hollowed) in lost.iter().zip(look::hollowed(interface)) {
                 close(hollowed, *lost, 1e-12, &what);
             }
             close(lost[0] / lost[1], 2.0, 1e-12, &what);

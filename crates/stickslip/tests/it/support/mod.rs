@@ -5,6 +5,7 @@ pub mod resistance;
 use std::path::{Path, PathBuf};
 
 use stickslip::Error;
+use stickslip::contact::interface::ContactView;
 use stickslip::newton::Progress;
 use stickslip::problem::{Document, Problem};
 pub use stickslip::results::Row;
@@ -76,6 +77,12 @@ pub fn folder(name: &str) -> PathBuf {
 /// Builds a problem without mesh files.
 pub fn build(problem: &Problem) -> Result<Simulation, Error> {
     Simulation::new(problem.build(Path::new("."))?)
+}
+
+/// The first interface as it was after the last increment that was reported.
+pub fn contact(simulation: &Simulation) -> ContactView<'_> {
+    let first = simulation.view().contacts().next();
+    first.expect("there is an interface")
 }
 
 /// What happened in a run: the iterations of every accepted increment, and its history row.
