@@ -303,6 +303,11 @@ pub const APART: &[(&str, &str, &str)] = &[
     ("two-sided", "floor", "An obstacle has no points."),
     (
         "two-sided",
+        "roughness",
+        "Heights are those of one surface, and each is the secondary of half of the contact.",
+    ),
+    (
+        "two-sided",
         "complex-modes",
         "Multipliers of both sides are not determined.",
     ),
