@@ -381,6 +381,11 @@ pub const APART: &[(&str, &str, &str)] = &[
         "complex-modes",
         "Friction at its limit tips over what is pressed by its weight alone and guided at its top, where it is tall.",
     ),
+    (
+        "pressed",
+        "complex-modes",
+        "Friction at its limit tips over what a load presses and a guide holds at its top, where it is tall.",
+    ),
     ("tied-foot", "periodic", "The foot has sides of its own."),
     (
         "side-body",
