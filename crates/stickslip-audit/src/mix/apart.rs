@@ -303,6 +303,11 @@ pub const APART: &[(&str, &str, &str)] = &[
     ("two-sided", "floor", "An obstacle has no points."),
     (
         "two-sided",
+        "roughness",
+        "Heights are those of one surface, and each is the secondary of half of the contact.",
+    ),
+    (
+        "two-sided",
         "complex-modes",
         "Multipliers of both sides are not determined.",
     ),
@@ -375,6 +380,11 @@ pub const APART: &[(&str, &str, &str)] = &[
         "weight",
         "complex-modes",
         "Friction at its limit tips over what is pressed by its weight alone and guided at its top, where it is tall.",
+    ),
+    (
+        "pressed",
+        "complex-modes",
+        "Friction at its limit tips over what a load presses and a guide holds at its top, where it is tall.",
     ),
     ("tied-foot", "periodic", "The foot has sides of its own."),
     (

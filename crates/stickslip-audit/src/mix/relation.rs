@@ -136,9 +136,10 @@ pub const RELATIONS: &[Relation] = &[
         Again::Text(|v| v.remeshed = true),
         Agreement::Mesh,
         &[
-            // A load between the clamp of the upper body and the surface below, which ends before it, is shared by distances of a few cells.
+            // A load between the clamp of the upper body and the surface below, which ends before it or where it begins, is shared by distances of a few cells.
             "clamp overhang",
             "clamp wider",
+            "clamp inside",
             "roughness",
             "bed-of-springs",
             "modes",
