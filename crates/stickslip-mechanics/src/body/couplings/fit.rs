@@ -87,7 +87,7 @@ impl Couplings {
         } = &mut elimination;
         stiffness.clear();
         stiffness.extend(self.hold.iter().map(|hold| hold.stiffness));
-        if held.len() == stiffness.len() && !blocks.is_empty() {
+        if !held.is_empty() && held.len() == stiffness.len() && !blocks.is_empty() {
             let moved: Vec<ContactBlock> = match links {
                 Some(links) => {
                     let moved = blocks.iter().map(|block| links.transform(block));
