@@ -264,7 +264,7 @@ impl Printer {
         // The first direction of the node of a pretension is the shortening, its force that of the bolt.
         let drawn = |node: &u64, key: &str| {
             let name = self.drawn.get(node)?;
-            let mut all = analysis.contact.couplings.report(u);
+            let mut all = analysis.couplings().report(u);
             let (_, force, shortening) = all.find(|(n, ..)| n == name)?;
             let value = match key {
                 "U" => shortening,

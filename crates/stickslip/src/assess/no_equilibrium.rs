@@ -255,7 +255,7 @@ impl View<'_> {
             }
             holds.close |= gap <= 1e-9 * size;
         }
-        for row in self.contact.couplings.stops(t) {
+        for row in self.couplings().stops(t) {
             let speed = |motion: &Unheld| -> f64 {
                 let parts = holds.all.iter().zip(motion);
                 parts.map(|(m, c)| c * m.along(self.model, row)).sum()

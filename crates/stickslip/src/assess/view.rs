@@ -35,7 +35,7 @@ impl<'a> View<'a> {
         out.iter_mut().zip(contact).for_each(|(out, c)| *out += c);
         (self.model).add_thermal_forces(self.frame.state.t, -1.0, &mut out);
         // Equations act like contact and do not count as what resists.
-        self.contact.couplings.add_equation_forces(&mut out);
+        self.couplings().add_equation_forces(&mut out);
         out
     }
 

@@ -312,7 +312,7 @@ impl Explicit {
         let strain: f64 = both.map(|(f, u)| f * u).sum();
         let strain = 0.5 * self.stored.unwrap_or(strain);
         let energy = &mut frame.ledger;
-        let strain = strain + contact.couplings.energy().stored + energy.thermal;
+        let strain = strain + contact.couplings.view().stored() + energy.thermal;
         energy.initial += strain - energy.strain;
         energy.strain = strain;
         model.links.transfer(&mut self.force);

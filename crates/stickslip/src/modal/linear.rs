@@ -90,7 +90,7 @@ impl Linear {
         let t = step.start + SOON * (step.end - step.start);
         let fixed = frame.constraints(model, t).fixed;
         let (mut parts, mut equations) = (Parts::default(), Vec::new());
-        for (row, meets) in contact.couplings.linearise(t) {
+        for (row, meets) in contact.coupled(frame).linearise(t) {
             let (stiffness, damping) = match meets {
                 Meets::Equation => {
                     equations.push(moved(row, &model.links));

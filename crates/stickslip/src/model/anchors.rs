@@ -53,7 +53,7 @@ impl Scene<'_> {
             return out;
         }
         let body_of = |point: usize| model.bodies.iter().position(|b| b.points.contains(&point));
-        for row in self.contact.couplings.acting(t) {
+        for row in self.couplings().acting(t) {
             let points: Vec<usize> = (row.dofs.iter())
                 .step_by(model.dofs.dim)
                 .map(|&dof| model.dofs.locate(dof).0)

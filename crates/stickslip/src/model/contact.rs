@@ -1,9 +1,9 @@
 //! What is evaluated in every iteration: interfaces and couplings, with all that they remember.
 
 use super::definition::Step;
-use super::frame::Frame;
-use crate::body::couplings::{Couplings, CouplingsMemory};
-use crate::contact::interface::{ContactView, History, Interface};
+use super::frame::{ContactMemory, Frame};
+use crate::body::couplings::{Couplings, CouplingsView};
+use crate::contact::interface::{ContactView, Interface};
 use crate::system::{Force, Stage, State};
 
 /// Interfaces and couplings: where bodies touch and what ties their points.
@@ -30,22 +30,36 @@ impl Contact {
         let interfaces = self.interfaces.iter().enumerate();
         interfaces.map(|(k, interface)| ContactView {
             definition: &interface.definition,
-            state: frame.contacts.get(k).unwrap_or(&interface.history),
+            state: match &frame.contacts {
+                Some(known) => &known.interfaces[k],
+                None => &interface.history,
+            },
         })
     }
 
+    /// The couplings after the increment of a frame.
+    pub fn coupled<'a>(&'a self, frame: &'a Frame) -> CouplingsView<'a> {
+        let known = frame.contacts.as_ref();
+        CouplingsView {
+            definition: &self.couplings.definition,
+            state: known.map_or(&self.couplings.memory, |known| &known.couplings),
+        }
+    }
+
     /// What interfaces and couplings have been through.
-    pub(crate) fn memory(&self) -> (Vec<History>, CouplingsMemory) {
-        let histories = self.interfaces.iter().map(|i| i.history.clone());
-        (histories.collect(), self.couplings.memory.clone())
+    pub(crate) fn memory(&self) -> ContactMemory {
+        ContactMemory {
+            interfaces: self.interfaces.iter().map(|i| i.history.clone()).collect(),
+            couplings: self.couplings.memory.clone(),
+        }
     }
 
     /// Lets them go on from that.
-    pub(crate) fn go_on_from(&mut self, (histories, couplings): (Vec<History>, CouplingsMemory)) {
-        for (interface, history) in self.interfaces.iter_mut().zip(histories) {
+    pub(crate) fn go_on_from(&mut self, memory: ContactMemory) {
+        for (interface, history) in self.interfaces.iter_mut().zip(memory.interfaces) {
             interface.history = history;
         }
-        self.couplings.memory = couplings;
+        self.couplings.memory = memory.couplings;
     }
 
     /// Tells all of them that an attempt is accepted.

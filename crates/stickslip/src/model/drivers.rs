@@ -82,7 +82,7 @@ impl Scene<'_> {
             }
         }
         // A pair of forces inside a body pushes what only one of them acts on.
-        for (name, forces) in self.contact.couplings.pulls(t) {
+        for (name, forces) in self.couplings().pulls(t) {
             of(Some(format!("pretension.{name}")), &forces, 1.0);
         }
         let step = &model.steps[self.frame.step];

@@ -6,6 +6,7 @@ use super::course::Course;
 use super::cycling::Block;
 use super::kick::Kick;
 use super::ledger::EnergyLedger;
+use crate::body::couplings::CouplingsMemory;
 use crate::contact::interface::History;
 use crate::fatigue::Record;
 use crate::system::State;
@@ -19,8 +20,8 @@ pub struct Frame {
     pub state: State,
     /// Internal minus external forces `[N]`: reactions where supported.
     pub forces: Vec<f64>,
-    /// Histories of the interfaces after this increment where those that wait for their report have taken them farther; empty where their own are these.
-    pub contacts: Vec<History>,
+    /// What interfaces and couplings knew after this increment where those that wait for their report have taken them farther; `None` where they know that.
+    pub contacts: Option<ContactMemory>,
     /// What interfaces and couplings add to the residual `[N]`.
     pub contact: Vec<f64>,
     /// External forces `[N]`.
@@ -43,6 +44,15 @@ pub struct Frame {
     pub kick: Option<Kick>,
     /// Energies: what there is, and where it came from and went.
     pub ledger: EnergyLedger,
+}
+
+/// What interfaces and couplings have been through.
+#[derive(Debug, Clone, Default)]
+pub struct ContactMemory {
+    /// By interface.
+    pub interfaces: Vec<History>,
+    /// Of all couplings.
+    pub couplings: CouplingsMemory,
 }
 
 /// What an implicit step knows beside the state; empty in other steps.
@@ -72,6 +82,10 @@ crate::keep!(Frame {
     fatigue,
     kick,
     ledger
+});
+crate::keep!(ContactMemory {
+    interfaces,
+    couplings
 });
 crate::keep!(Motion {
     internal,

@@ -72,7 +72,7 @@ impl Scene<'_> {
                 held[dof] |= stiffness > 0.0;
             }
         }
-        let rows: Vec<_> = self.contact.couplings.acting(t).collect();
+        let rows: Vec<_> = self.couplings().acting(t).collect();
         let modes = modes(model);
         let ties: Vec<&Interface> = (self.contact.interfaces.iter())
             .filter(|i| i.laws.tied && i.schedule.active(t))

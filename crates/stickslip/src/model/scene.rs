@@ -1,5 +1,6 @@
 //! What is simulated and where it stands.
 
+use crate::body::couplings::CouplingsView;
 use crate::contact::interface::ContactView;
 use crate::contact::look;
 use std::borrow::Cow;
@@ -25,6 +26,11 @@ impl<'a> Scene<'a> {
     /// The interfaces as they were after the increment.
     pub fn contacts(&self) -> impl ExactSizeIterator<Item = ContactView<'a>> + use<'a> {
         self.contact.views(self.frame)
+    }
+
+    /// The couplings as they were after it.
+    pub fn couplings(&self) -> CouplingsView<'a> {
+        self.contact.coupled(self.frame)
     }
 
     /// Constraints at a time.
@@ -147,7 +153,7 @@ impl<'a> Scene<'a> {
         let mut out: Vec<f64> = both.map(|(reaction, load)| reaction + load).collect();
         // What bodies press with themselves, being warm, is none of it.
         (self.model).add_thermal_forces(self.frame.state.t, -1.0, &mut out);
-        self.contact.couplings.add_equation_forces(&mut out);
+        self.couplings().add_equation_forces(&mut out);
         out
     }
 

@@ -243,7 +243,7 @@ impl Scene<'_> {
                 resisted.dof(dof);
             }
         }
-        let couplings = &self.contact.couplings;
+        let couplings = self.couplings();
         let stops = couplings.stops(t).filter(|_| contact);
         for row in couplings.acting(t).chain(stops) {
             let values: Vec<_> = modes

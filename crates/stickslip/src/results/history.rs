@@ -116,7 +116,7 @@ pub(crate) fn row(
             row.push(format!("{}.CWEARVOL", interface.name), volume);
         }
     }
-    for (name, force, sum) in view.contact.couplings.report(&view.frame.state.u) {
+    for (name, force, sum) in view.couplings().report(&view.frame.state.u) {
         row.push(format!("{name}.F"), force);
         row.push(format!("{name}.U"), sum);
     }

@@ -23,7 +23,7 @@ pub(crate) fn book(
     }
     let first = summary.increments == 0;
     frame.ledger = ledger_after(model, contact, frame, (&accepted, first));
-    frame.coupled = contact.couplings.energy().stored;
+    frame.coupled = contact.coupled(frame).stored();
     frame.state = accepted.state;
     frame.forces = accepted.forces;
     frame.contact = accepted.contact;
@@ -54,8 +54,8 @@ pub(crate) fn ledger_after(
 ) -> EnergyLedger {
     let followed = accepted.followed || first && pressed_at_start(model, contact, frame);
     // The energy of couplings counts with that of the bodies.
-    let couplings = &contact.couplings;
-    let (stored, coupled) = (couplings.energy().stored, couplings.work());
+    let couplings = contact.coupled(frame);
+    let (stored, coupled) = (couplings.stored(), couplings.work());
     let at = &accepted.state;
     let flow = Flow {
         work: accepted.flow.work + coupled,

@@ -9,7 +9,7 @@
 //! | step, state, forces, starts of supports, direction, ledger | `Frame` | as it is |
 //! | histories of interfaces; multipliers, targets and holds of couplings | `History`, `CouplingsState` | as they are |
 //! | what the solver told interfaces; the end of their last attempt; places of their last search, slopes and nodes of their last evaluation | `Memory` | as they are; facets found again |
-//! | increments that wait for their interiors, or to be reported; an attempt that failed and waits until they are | `Pending`, `Recovered`, `Failed` | as they are |
+//! | increments that wait for their interiors, or to be reported; an attempt that failed and waits until they are | `Pending`, `Failed` | as they are |
 //! | how far the steps are: increments, attempts, the length that is wished, jumps over cycles | `Steps` | as it is |
 //! | damping forces and constraints of an explicit step | `ExplicitState` | as they are; masses, springs and frequencies made again |
 //! | the way to solve, candidates, condensed state and direction, floating bodies with their anchors, counts | `SolverState` | as they are |
@@ -27,10 +27,11 @@
 //! An attempt changes nothing of this but what is in [`Working`]; a run that is stopped in the middle of one goes back to that of its beginning, so that
 //! the increment is tried again with the same bits.
 
+use std::collections::VecDeque;
 use std::path::Path;
 
 use super::jumps::Jumps;
-use super::queue::{Failed, Pending, Recovered};
+use super::queue::{Failed, Pending};
 use crate::assess::doctor::Watch;
 use crate::body::couplings::CouplingsState;
 use crate::contact::interface::{History, Memory};
@@ -53,7 +54,7 @@ pub struct Checkpoint {
     /// Increments that wait for their interiors.
     pub(super) pending: Vec<Pending>,
     /// Those whose interiors are known and nobody has been told of.
-    pub(super) recovered: Option<Recovered>,
+    pub(super) recovered: Option<VecDeque<Pending>>,
     pub(super) summary: Summary,
     pub(super) watches: Vec<Watch>,
     pub(super) loops: Vec<Loop>,

@@ -1,6 +1,6 @@
 //! Accepted increments on their way into the results.
 
-use super::queue::{Pending, Recovered};
+use super::queue::Pending;
 use std::time::Instant;
 
 use super::book::book;
@@ -46,7 +46,7 @@ impl Simulation {
         pending.before = before;
         pending.found = solver.move_ahead(&mut pending.accepted, pending.trial);
         pending.seen = solver.seen.take();
-        (pending.histories, pending.couplings) = contact.memory();
+        pending.after = Some(contact.memory());
         self.pending.push(pending);
         if last || self.pending.len() >= TOGETHER {
             self.recover_pending();
@@ -70,11 +70,7 @@ impl Simulation {
         let unknown = pending.iter_mut();
         let unknown = unknown.filter_map(|p| Some((p.found.as_ref()?, &mut p.accepted)));
         self.solver.recover(unknown);
-        // Couplings tell what they knew after each of them.
-        self.recovered = Some(Recovered {
-            queue: pending.into(),
-            coupled: std::mem::take(&mut self.contact.couplings.memory),
-        });
+        self.recovered = Some(pending.into());
     }
 
     /// Reports the next of the increments whose interiors are known; `false` if there is none.
@@ -82,20 +78,18 @@ impl Simulation {
         &mut self,
         observers: &mut [&mut dyn Observer],
     ) -> Result<bool, Error> {
-        let Some(mut recovered) = self.recovered.take() else {
+        let Some(mut queue) = self.recovered.take() else {
             return Ok(false);
         };
         let mut outcome = Ok(());
-        if let Some(mut one) = recovered.queue.pop_front() {
-            let histories = std::mem::take(&mut one.histories);
-            let couplings = std::mem::take(&mut one.couplings);
-            let before = (
-                std::mem::replace(&mut self.frame.contacts, histories),
-                std::mem::replace(&mut self.contact.couplings.memory, couplings),
-            );
+        if let Some(mut one) = queue.pop_front() {
+            let before = one.before.take().or(self.frame.contacts.take());
+            self.frame.contacts = one.after.take();
             if let Err(failure) = self.complete(&mut one) {
-                self.frame.contacts.clear();
-                self.contact.go_on_from(one.before.take().unwrap_or(before));
+                self.frame.contacts = None;
+                if let Some(before) = before {
+                    self.contact.go_on_from(before);
+                }
                 if failure.cause == Cause::Engine {
                     self.pending.clear();
                     return Err(failure.at(self.frame.state.t).into());
@@ -104,11 +98,10 @@ impl Simulation {
             }
             outcome = self.report(one, observers);
         }
-        if recovered.queue.is_empty() || outcome.is_err() {
-            self.frame.contacts.clear();
-            self.contact.couplings.memory = recovered.coupled;
+        if queue.is_empty() || outcome.is_err() {
+            self.frame.contacts = None;
         } else {
-            self.recovered = Some(recovered);
+            self.recovered = Some(queue);
         }
         outcome.map(|()| true)
     }
@@ -187,9 +180,13 @@ impl Simulation {
         let interfaces = self.contact.interfaces.iter().zip(views);
         let gaps = interfaces.map(|(i, view)| look::excluded_gaps(view, &i.directives, u, *t));
         let gaps: Vec<_> = gaps.collect();
-        let known = &mut self.frame.contacts;
-        for (k, (interface, gaps)) in self.contact.interfaces.iter_mut().zip(gaps).enumerate() {
-            let history = known.get_mut(k).unwrap_or(&mut interface.history);
+        let histories: Vec<_> = match &mut self.frame.contacts {
+            Some(known) => known.interfaces.iter_mut().collect(),
+            None => (self.contact.interfaces.iter_mut())
+                .map(|i| &mut i.history)
+                .collect(),
+        };
+        for (history, gaps) in histories.into_iter().zip(gaps) {
             history.note_gaps(&gaps);
         }
         self.tell(observers, || Event::Output)

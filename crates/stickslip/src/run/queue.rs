@@ -1,10 +1,7 @@
 //! What waits: accepted increments for their interiors, or to be reported, and an attempt that failed until they are.
 
-use std::collections::VecDeque;
-
 use crate::assess::doctor;
-use crate::body::couplings::CouplingsMemory;
-use crate::contact::interface::History;
+use crate::model::frame::ContactMemory;
 use crate::newton::Progress;
 use crate::results::observer::Advance;
 use crate::solve::accepted::Accepted;
@@ -25,12 +22,10 @@ pub(crate) struct Pending {
     pub row: bool,
     /// Newton iterations nobody has been told of.
     pub(super) seen: Vec<Progress>,
-    /// The histories of the interfaces after it; empty if it is reported at once.
-    pub(super) histories: Vec<History>,
-    /// The same of the couplings.
-    pub(super) couplings: CouplingsMemory,
-    /// What both knew before it, where nobody else remembers: in the first of those that wait.
-    pub(super) before: Option<(Vec<History>, CouplingsMemory)>,
+    /// What interfaces and couplings knew after it; `None` if it is reported at once.
+    pub(super) after: Option<ContactMemory>,
+    /// What they knew before it, where nobody else remembers: in the first of those that wait.
+    pub(super) before: Option<ContactMemory>,
     /// What the interior of a condensed increment follows from; `None` where it is known.
     pub(super) found: Option<Candidates>,
 }
@@ -51,8 +46,7 @@ impl Pending {
             fields,
             row,
             seen: Vec::new(),
-            histories: Vec::new(),
-            couplings: CouplingsMemory::default(),
+            after: None,
             before: None,
             found: None,
         }
@@ -79,21 +73,10 @@ crate::keep!(Pending {
     fields,
     row,
     seen,
-    histories,
-    couplings,
+    after,
     before,
     found
 });
-crate::keep!(Recovered { queue, coupled });
-
-/// Increments whose interiors are known, on their way to the observers.
-#[derive(Clone)]
-pub(crate) struct Recovered {
-    pub(super) queue: VecDeque<Pending>,
-    /// What the couplings knew after the last of them.
-    pub(super) coupled: CouplingsMemory,
-}
-
 /// An increment that was accepted and taken back, with all that came after it.
 pub(crate) struct TakenBack {
     pub(super) trial: Trial,

@@ -30,10 +30,10 @@ impl Simulation {
 
     /// The same with another working state than that of now.
     pub(super) fn checkpoint_with(&self, working: Working) -> Checkpoint {
-        let (histories, _) = self.contact.memory();
+        let histories = self.contact.interfaces.iter().map(|i| i.history.clone());
         Checkpoint {
             frame: self.frame.clone(),
-            histories,
+            histories: histories.collect(),
             position: Position {
                 next: self.steps.next,
                 running: (self.steps.running.as_ref()).map(Increments::standing),

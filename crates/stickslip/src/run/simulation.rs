@@ -1,11 +1,12 @@
 //! An analysis that is run: who owns what, how it begins and ends.
 
+use std::collections::VecDeque;
 use std::sync::Arc;
 use std::time::Instant;
 
 use super::checkpoint::Working;
 use super::position::Steps;
-use super::queue::{Pending, Recovered, TakenBack};
+use super::queue::{Pending, TakenBack};
 use super::trying::Trying;
 use crate::assess::diagnosis::{CheckReport, start_gaps};
 use crate::assess::doctor::{self, DoctorCause, Finding, Watch};
@@ -49,7 +50,7 @@ pub struct Simulation {
     /// Accepted increments whose interiors are not known yet.
     pub(crate) pending: Vec<Pending>,
     /// Those whose interiors are known, on their way to the observers.
-    pub(crate) recovered: Option<Recovered>,
+    pub(crate) recovered: Option<VecDeque<Pending>>,
     /// The last of those whose interior was found not to hold.
     pub(crate) taken_back: Option<TakenBack>,
     /// What interfaces did so far.
@@ -275,7 +276,7 @@ fn start(model: &Model, contact: &mut Contact, solver: &Solver) -> Frame {
         ..Frame::default()
     };
     let strain = solver.strain_energy(model, &u) + contact.couplings.begin_analysis(t, &u);
-    frame.coupled = contact.couplings.energy().stored;
+    frame.coupled = contact.couplings.view().stored();
     frame.ledger.initial = strain;
     frame.ledger.strain = strain;
     frame.state = State {

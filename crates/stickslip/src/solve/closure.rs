@@ -69,7 +69,8 @@ pub(crate) fn close(
     }
     let pushes = pushes(model, external);
     let mut pulls = vec![0.0; external.len()];
-    for (dof, force) in contact.couplings.pulls(trial.to).into_values().flatten() {
+    let drawn = contact.couplings.view().pulls(trial.to);
+    for (dof, force) in drawn.into_values().flatten() {
         pulls[dof] += force;
     }
     let mut u = frame.state.u.clone();

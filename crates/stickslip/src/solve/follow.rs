@@ -186,7 +186,7 @@ impl Solver {
         let external = frame.loads(model, trial.to);
         let pushes = pushes(model, &external).into_iter();
         // What draws the parts of a bolt together is no load on the whole of it.
-        let tension = contact.couplings.tension(trial.to);
+        let tension = contact.couplings.view().tension(trial.to);
         let mut force = pushes.map(|p| norm(p.force)).fold(tension, f64::max);
         let before = self.floating.pressed(model, &frame.contact).into_iter();
         let largest = before.chain(self.floating.pushed.iter().copied());

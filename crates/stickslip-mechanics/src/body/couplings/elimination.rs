@@ -29,6 +29,13 @@ pub(super) struct Elimination {
     pub contact: Vec<f64>,
 }
 
+impl Elimination {
+    /// Stiffness by which the multiplier of a row is eliminated beside contact `[N/m]`; `None` where contact has not been looked at.
+    pub fn of(&self, i: usize) -> Option<f64> {
+        self.stiffness.get(i).copied()
+    }
+}
+
 /// `Σ factor² / stiffness` over the displacements that have one.
 pub(super) fn compliance(held: &[Held], stiffness: impl Fn(&Held) -> f64) -> f64 {
     let with = held.iter().map(|h| (h.squared, stiffness(h)));

@@ -2,7 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::all::{Act, ExactForce, Hold};
+use super::all::{ExactForce, Hold};
+use super::definition::Act;
 use super::{Coupling, Couplings, Row, Tie};
 use crate::system::{Links, Schedule};
 
@@ -36,7 +37,7 @@ impl Couplings {
     pub fn exact_rows(&self, t: f64) -> impl Iterator<Item = (usize, &Row, f64)> {
         let rows = self.rows().filter(|_| self.explicit);
         rows.filter_map(move |(i, coupling, row)| match self.act(i, coupling, t) {
-            Act::Held(target) if !self.hold[i].idle => Some((i, row, target + self.rest(i))),
+            Act::Held(target) if !self.hold[i].idle => Some((i, row, target + self.memory.rest(i))),
             _ => None,
         })
     }
@@ -68,11 +69,6 @@ impl Couplings {
                 self.memory.forces[i] = force.to;
             }
         }
-    }
-
-    /// By how much a row was off when explicit increments began.
-    pub(super) fn rest(&self, i: usize) -> f64 {
-        self.memory.rest.get(i).copied().unwrap_or(0.0)
     }
 
     /// The rigid stops that springs stand for in an explicit step, with the energy of these springs at the last accepted state `[J]`. What a multiplier carried

@@ -10,21 +10,26 @@ impl Couplings {
     /// body or a reference point says nothing of how stiff these are: where a row moves nothing else the stiffest counts. Rows that share a weak
     /// spring would hold no more than that otherwise, and what they join could strain between them.
     pub fn fit(&mut self, diagonal: &[f64], fixed: &[bool], links: &Links) {
-        let springs = self.all.iter().map(|c| c.tie.stiffness());
+        let springs = self.all().iter().map(|c| c.tie.stiffness());
         let typical = diagonal.iter().copied().chain(springs).fold(0.0, f64::max);
         // Where nothing has a stiffness any will do.
         let typical = if typical > 0.0 { typical } else { 1.0 };
-        let mut hold = std::mem::take(&mut self.hold);
-        let mut elimination = std::mem::take(&mut self.elimination);
+        let Couplings {
+            definition,
+            hold,
+            elimination,
+            ..
+        } = self;
+        let dim = definition.dim;
         elimination.held.clear();
         // How many rows move a displacement.
         let mut shared = vec![0_u32; diagonal.len()];
-        for (.., row) in self.rows() {
+        for (.., row) in definition.rows() {
             for (dof, _) in links.moved(row.terms()) {
                 shared[dof] += 1;
             }
         }
-        for (i, _, row) in self.rows() {
+        for (i, _, row) in definition.rows() {
             let free = links.moved(row.terms()).into_iter();
             let free = free.filter(|(dof, a)| !fixed[*dof] && *a != 0.0);
             let (carried, cells): (Vec<Held>, Vec<Held>) = free
@@ -33,7 +38,7 @@ impl Couplings {
                     squared: a * a,
                     bulk: diagonal[dof],
                 })
-                .partition(|h| links.of_hidden(h.dof / self.dim).is_some());
+                .partition(|h| links.of_hidden(h.dof / dim).is_some());
             let own = |h: &Held| shared[h.dof] < 2;
             let cells = match cells.iter().any(|h| own(h) && h.bulk > 0.0) {
                 true => cells.into_iter().filter(own).collect(),
@@ -62,7 +67,7 @@ impl Couplings {
         elimination.links = (!links.is_empty()).then(|| links.clone());
         let give = diagonal.iter().zip(fixed).enumerate();
         let give = give.map(|(dof, (&k, &fixed))| {
-            let carried = links.of_hidden(dof / self.dim).is_some();
+            let carried = links.of_hidden(dof / dim).is_some();
             match k > 0.0 {
                 true if !fixed && !carried => 1.0 / k,
                 _ => 0.0,
@@ -70,21 +75,18 @@ impl Couplings {
         });
         elimination.give = give.collect();
         elimination.stiffness.clear();
-        self.elimination = elimination;
-        self.hold = hold;
     }
 
     /// Chooses them anew beside contact with these tangents. A row between points that contact holds far more firmly than the bodies do has to be firmer
     /// than contact: what the row says of them contact says as well, and each takes over from the other by the ratio of their stiffnesses.
     pub(super) fn fit_beside(&mut self, blocks: &[ContactBlock]) {
-        let mut elimination = std::mem::take(&mut self.elimination);
         let Elimination {
             stiffness,
             held,
             give,
             links,
             contact,
-        } = &mut elimination;
+        } = &mut self.elimination;
         stiffness.clear();
         stiffness.extend(self.hold.iter().map(|hold| hold.stiffness));
         if !held.is_empty() && held.len() == stiffness.len() && !blocks.is_empty() {
@@ -107,17 +109,10 @@ impl Couplings {
                 }
             }
         }
-        self.elimination = elimination;
     }
 
     /// Forgets contact: nothing of an attempt shows in the next one.
     pub(super) fn fit_alone(&mut self) {
         self.elimination.stiffness.clear();
-    }
-
-    /// Stiffness by which the multiplier of a row is eliminated `[N/m]`.
-    pub(super) fn eliminated_by(&self, i: usize) -> f64 {
-        let beside = self.elimination.stiffness.get(i);
-        beside.copied().unwrap_or(self.hold[i].stiffness)
     }
 }

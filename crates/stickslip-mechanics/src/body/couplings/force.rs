@@ -1,10 +1,11 @@
 //! Couplings as a force.
 
-use super::all::Act;
+use super::all::Iterate;
+use super::definition::Act;
 use super::elimination::FIRM;
 use super::{Couplings, Row, Tie};
 use crate::math::larger;
-use crate::system::{Assembler, Cause, Energy, Force, Stage, StepFailure, Tangent};
+use crate::system::{Assembler, Cause, Force, Stage, StepFailure, Tangent};
 
 /// How far an equation of nothing but prescribed displacements may be off, relative to their size.
 const AGREED: f64 = 1e-9;
@@ -18,19 +19,26 @@ impl Force for Couplings {
     }
 
     fn assemble(&mut self, stage: &Stage, out: &mut Assembler) -> Result<(), StepFailure> {
-        if out.wants_tangent && !self.explicit {
+        let explicit = self.explicit;
+        if out.wants_tangent && !explicit {
             self.fit_beside(&out.blocks);
         }
-        let mut off_now = std::mem::take(&mut self.iterate.off_now);
-        let mut now = std::mem::take(&mut self.iterate.now);
+        let Couplings {
+            definition,
+            hold,
+            iterate: Iterate { now, off_now, .. },
+            elimination,
+            memory,
+            ..
+        } = self;
         let mut scratch = Scratch::default();
         let mut failure = None;
         let u = &stage.at.u;
-        for (i, coupling, row) in self.rows() {
+        for (i, coupling, row) in definition.rows() {
             let sum = row.sum(u);
-            let hold = self.hold[i];
+            let hold = hold[i];
             let norm = row.norm();
-            let act = self.act(i, coupling, stage.at.t);
+            let act = definition.act(i, coupling, memory.start[i], stage.at.t);
             let (force, stiffness) = match act {
                 Act::Idle => continue,
                 Act::Sprung(stiffness) => {
@@ -44,7 +52,7 @@ impl Force for Couplings {
                     continue;
                 }
                 Act::Damped(coefficient) => {
-                    let force = coefficient * self.rate_of(row, stage);
+                    let force = coefficient * rate_of(row, stage, explicit);
                     now[i] = force;
                     scratch.push(row, force, out);
                     out.add_coupling(&row.dofs);
@@ -57,7 +65,7 @@ impl Force for Couplings {
                 Act::Held(_) | Act::Stopped(_) => {
                     let (off, gap) = match act {
                         Act::Stopped(clearance) => (sum + clearance, true),
-                        _ => (sum - Couplings::target(act), false),
+                        _ => (sum - act.target(), false),
                     };
                     off_now[i] = off;
                     if hold.idle {
@@ -68,22 +76,22 @@ impl Force for Couplings {
                         }
                         continue;
                     }
-                    if self.explicit && !gap {
+                    if explicit && !gap {
                         // Held exactly, by whoever makes the increment.
                         continue;
                     }
-                    let stiffness = match self.explicit {
+                    let stiffness = match explicit {
                         true => hold.stiffness,
-                        false => self.eliminated_by(i),
+                        false => elimination.of(i).unwrap_or(hold.stiffness),
                     };
-                    let rest = if self.explicit { self.rest(i) } else { 0.0 };
+                    let rest = if explicit { memory.rest(i) } else { 0.0 };
                     let pull = stiffness * (off - rest);
-                    let known = match self.explicit {
-                        true => self.memory.multipliers[i],
+                    let known = match explicit {
+                        true => memory.multipliers[i],
                         false => now[i],
                     };
                     let open = gap && known + pull > 0.0;
-                    if self.explicit {
+                    if explicit {
                         match open {
                             true => (0.0, 0.0),
                             false => (known + pull, stiffness),
@@ -115,8 +123,6 @@ impl Force for Couplings {
                 scratch.add(row, |_| stiffness, out);
             }
         }
-        self.iterate.off_now = off_now;
-        self.iterate.now = now;
         if !out.tentative {
             self.settle();
         }
@@ -129,44 +135,50 @@ impl Force for Couplings {
     }
 
     fn update_internal(&mut self, du: &[f64], step: f64) {
-        let mut now = std::mem::take(&mut self.iterate.now);
-        for (i, coupling, row) in self.rows() {
-            if !coupling.tie.firm() || self.hold[i].idle {
+        for (i, coupling, row) in self.definition.rows() {
+            let hold = self.hold[i];
+            if !coupling.tie.firm() || hold.idle {
                 continue;
             }
+            let stiffness = self.elimination.of(i).unwrap_or(hold.stiffness);
             let (last, off) = (self.iterate.last[i], self.iterate.off[i]);
-            now[i] = match off.is_finite() {
-                true => last + step * self.eliminated_by(i) * (off + row.sum(du)),
+            self.iterate.now[i] = match off.is_finite() {
+                true => last + step * stiffness * (off + row.sum(du)),
                 false => (1.0 - step) * last,
             };
         }
-        self.iterate.now = now;
     }
 
     fn commit(&mut self, stage: &Stage) {
-        let mut memory = std::mem::take(&mut self.memory);
+        let (explicit, now) = (self.explicit, &self.iterate.now);
+        let (definition, memory) = (&self.definition, &mut self.memory);
         let (u, before) = (&stage.at.u, &stage.from.u);
+        let at_rest = stage.rate.is_none() && !explicit;
         memory.stored = 0.0;
         memory.work = 0.0;
         memory.damped = 0.0;
-        for (i, coupling, row) in self.rows() {
+        for (i, coupling, row) in definition.rows() {
             let (sum, sum_before) = (row.sum(u), row.sum(before));
-            let act = match (self.act(i, coupling, stage.at.t), &coupling.tie) {
+            let act = match (
+                definition.act(i, coupling, memory.start[i], stage.at.t),
+                &coupling.tie,
+            ) {
                 // what is taken away lets go of what it has
                 (Act::Idle, Tie::Dashpot { .. }) => Act::Damped(0.0),
                 (Act::Idle, tie) if !tie.firm() => Act::Sprung(0.0),
                 (act, _) => act,
             };
-            let target = Couplings::target(act);
-            let was = std::mem::replace(&mut memory.targets[i], target);
+            let target = act.target();
+            let was = memory.targets[i];
+            memory.targets[i] = target;
             match act {
                 Act::Held(_) => {
-                    let [from, to, shown] = match self.explicit {
+                    let [from, to, shown] = match explicit {
                         true => {
                             let exact = self.exact.get(i).copied().unwrap_or_default();
                             [exact.from, exact.to, exact.shown]
                         }
-                        false => [memory.forces[i], self.iterate.now[i], self.iterate.now[i]],
+                        false => [memory.forces[i], now[i], now[i]],
                     };
                     memory.work -= 0.5 * (from + to) * (target - was);
                     memory.multipliers[i] = to;
@@ -180,29 +192,34 @@ impl Force for Couplings {
                     let force = match stage.rate {
                         _ if !coupling.schedule.active(stage.at.t) => 0.0,
                         // The force of the half-step, at which velocities are known there.
-                        None => self.iterate.now[i],
-                        Some(_) => coefficient * self.rate_of(row, stage),
+                        None => now[i],
+                        Some(_) => coefficient * rate_of(row, stage, explicit),
                     };
                     memory.damped += 0.5 * (memory.forces[i] + force) * (sum - sum_before);
                     memory.forces[i] = force;
                 }
                 Act::Stopped(clearance) => {
                     let (held, hold) = (memory.multipliers[i], self.hold[i]);
-                    let rest = memory.rest.get(i).copied().unwrap_or(0.0);
-                    let force = match (hold.idle, self.explicit) {
+                    let rest = memory.rest(i);
+                    let force = match (hold.idle, explicit) {
                         (true, _) => 0.0,
                         (false, true) => {
                             (held + hold.stiffness * (sum + clearance - rest)).min(0.0)
                         }
-                        (false, false) => self.iterate.now[i],
+                        (false, false) => now[i],
                     };
-                    if self.explicit && !hold.idle && hold.stiffness > 0.0 {
+                    if explicit && !hold.idle && hold.stiffness > 0.0 {
                         memory.stored += (force * force - held * held) / (2.0 * hold.stiffness);
                     } else {
                         memory.multipliers[i] = force;
                     }
-                    let forces = [std::mem::replace(&mut memory.forces[i], force), force];
-                    memory.work += self.missed(stage, forces, (sum - sum_before, 0.0));
+                    let forces = [memory.forces[i], force];
+                    memory.forces[i] = force;
+                    let way = Way {
+                        length: sum - sum_before,
+                        stored: 0.0,
+                    };
+                    memory.work += missed(at_rest, forces, way);
                 }
                 Act::Sprung(_) => {
                     let [x, y] = [sum, sum_before].map(|s| coupling.tie.stretch(s));
@@ -211,48 +228,46 @@ impl Force for Couplings {
                     if matches!(coupling.tie, Tie::Gap { .. }) {
                         let mean = 0.5 * (target + was);
                         let stored = 0.5 * mean * (x * x - y * y);
-                        let way = (sum - sum_before, stored);
-                        memory.work += self.missed(stage, [mean * y, mean * x], way);
+                        let way = Way {
+                            length: sum - sum_before,
+                            stored,
+                        };
+                        memory.work += missed(at_rest, [mean * y, mean * x], way);
                     }
                     memory.forces[i] = target * x;
                 }
                 Act::Idle => {}
             }
         }
-        self.memory = memory;
     }
 }
 
-impl Couplings {
-    /// Energies at the last committed state.
-    pub fn energy(&self) -> Energy {
-        Energy {
-            stored: self.memory.stored,
-            ..Energy::default()
-        }
-    }
-
-    /// What the sum of a row changes at per time: as the scheme of the increment has it, or as it is known. Nothing where inertia plays no part.
-    fn rate_of(&self, row: &Row, stage: &Stage) -> f64 {
-        let Some(rate) = &stage.rate else {
-            return match self.explicit {
-                true => row.sum(&stage.at.v),
-                false => 0.0,
-            };
-        };
-        let (u, from) = (&stage.at.u, &stage.from.u);
-        let moved = |dof: usize| rate.gain[dof] * (u[dof] - from[dof]) + rate.shift[dof];
-        let sum: f64 = row.terms().map(|(dof, a)| a * moved(dof)).sum();
-        sum / stage.dt
-    }
-
-    /// Work on the bodies that the trapezoidal rule counts over a way on which a gap opens or closes, less that along the way, which stores this much:
-    /// what drives the bodies has done as much more than that rule says. In motion it is an error of the scheme.
-    fn missed(&self, stage: &Stage, [from, to]: [f64; 2], (way, stored): (f64, f64)) -> f64 {
-        match stage.rate.is_none() && !self.explicit {
-            true => stored - 0.5 * (from + to) * way,
+/// What the sum of a row changes at per time: as the scheme of the increment has it, or as it is known. Nothing where inertia plays no part.
+fn rate_of(row: &Row, stage: &Stage, explicit: bool) -> f64 {
+    let Some(rate) = &stage.rate else {
+        return match explicit {
+            true => row.sum(&stage.at.v),
             false => 0.0,
-        }
+        };
+    };
+    let (u, from) = (&stage.at.u, &stage.from.u);
+    let moved = |dof: usize| rate.gain[dof] * (u[dof] - from[dof]) + rate.shift[dof];
+    let sum: f64 = row.terms().map(|(dof, a)| a * moved(dof)).sum();
+    sum / stage.dt
+}
+
+/// What the sum of a row changes by over an increment `[m]`, and what is stored on the way `[J]`.
+struct Way {
+    length: f64,
+    stored: f64,
+}
+
+/// Work on the bodies that the trapezoidal rule counts over a way on which a gap opens or closes, less that along the way: what drives the bodies has done as
+/// much more than that rule says. In motion it is an error of the scheme.
+fn missed(at_rest: bool, [from, to]: [f64; 2], way: Way) -> f64 {
+    match at_rest {
+        true => way.stored - 0.5 * (from + to) * way.length,
+        false => 0.0,
     }
 }
 

@@ -18,6 +18,7 @@
 mod all;
 mod axial_spring;
 mod dashpot;
+mod definition;
 mod distributing;
 mod drawn;
 mod elimination;
@@ -27,25 +28,30 @@ mod fit;
 mod force;
 mod gap;
 mod kinematic;
+mod memory;
 mod model;
 mod motion;
 mod pretension;
 mod row;
 mod spring;
 mod state;
+mod view;
 
-pub use all::{Coupling, Couplings, CouplingsMemory, ExactForce, Meets, Tie};
+pub use all::{Couplings, ExactForce};
 pub use axial_spring::AxialSpring;
 pub use dashpot::Dashpot;
+pub use definition::{Coupling, CouplingsDefinition, Meets, Tie};
 pub use distributing::{Distributing, SetWeight, Weights};
 pub use equation::{Equation, Term};
 pub use gap::Gap;
 pub use kinematic::Kinematic;
+pub use memory::CouplingsMemory;
 pub use model::{CouplingModel, Ground};
 pub use pretension::{Course, Draw, Pretension};
 pub use row::Row;
 pub use spring::Spring;
 pub use state::CouplingsState;
+pub use view::CouplingsView;
 
 crate::family! {
     /// The kinds of couplings.

@@ -1,6 +1,6 @@
 //! What a kind of coupling says.
 
-use super::all::Tie;
+use super::definition::Tie;
 use super::row::Row;
 use crate::body::Space;
 use crate::error::Diagnostic;

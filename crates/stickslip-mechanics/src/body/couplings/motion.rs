@@ -1,7 +1,7 @@
 //! The forces of equations at the start of motion, and how points without mass go with those that have one.
 
 use super::Couplings;
-use super::all::Act;
+use super::definition::Act;
 use crate::linear::{GmresSettings, gmres};
 use crate::system::{Links, StepFailure};
 

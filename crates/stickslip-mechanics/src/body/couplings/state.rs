@@ -1,17 +1,9 @@
 //! What a checkpoint has of couplings.
 
-use super::all::{Couplings, CouplingsMemory, Hold, Iterate};
+use super::all::{Couplings, Hold, Iterate};
+use super::memory::CouplingsMemory;
 
 crate::keep!(Hold { stiffness, idle });
-crate::keep!(CouplingsMemory {
-    multipliers,
-    forces,
-    targets,
-    rest,
-    stored,
-    work,
-    damped
-});
 crate::keep!(Iterate {
     last,
     off,
@@ -23,7 +15,6 @@ crate::keep!(Iterate {
 #[derive(Debug, Clone)]
 pub struct CouplingsState {
     hold: Vec<Hold>,
-    start: Vec<f64>,
     iterate: Iterate,
     memory: CouplingsMemory,
     explicit: bool,
@@ -31,7 +22,6 @@ pub struct CouplingsState {
 
 crate::keep!(CouplingsState {
     hold,
-    start,
     iterate,
     memory,
     explicit
@@ -42,7 +32,6 @@ impl Couplings {
     pub fn state(&self) -> CouplingsState {
         CouplingsState {
             hold: self.hold.clone(),
-            start: self.start.clone(),
             iterate: self.iterate.clone(),
             memory: self.memory.clone(),
             explicit: self.explicit,
@@ -53,13 +42,11 @@ impl Couplings {
     pub fn go_on_from(&mut self, state: CouplingsState) {
         let CouplingsState {
             hold,
-            start,
             iterate,
             memory,
             explicit,
         } = state;
         self.hold = hold;
-        self.start = start;
         self.iterate = iterate;
         self.memory = memory;
         self.explicit = explicit;

@@ -49,7 +49,7 @@ fn beyond(view: &View, t: f64, slight: f64) -> Option<Finding> {
     let loads = view.loads(t);
     let scale_of_loads = vector::norm(&loads);
     let modes = unheld::modes(model);
-    let couplings = &view.contact.couplings;
+    let couplings = view.couplings();
     let rows: Vec<_> = couplings.acting(t).chain(couplings.stops(t)).collect();
     for (index, body) in model.bodies.iter().enumerate() {
         let mut dofs: Vec<usize> =

@@ -42,7 +42,7 @@ pub(super) fn floating(view: &View, t: f64, rows: &[Row]) -> Vec<FloatingBody> {
     let along = |mode: &Mode, row: &Row| -> f64 {
         row.iter().map(|&(dof, w)| w * mode.at(model, dof)).sum()
     };
-    let coupled = view.contact.couplings.acting(t);
+    let coupled = view.couplings().acting(t);
     let coupled: Vec<Row> = coupled.map(|row| row.terms().collect()).collect();
     let at_rows = modes.iter().map(|m| {
         let all = rows.iter().chain(&coupled);

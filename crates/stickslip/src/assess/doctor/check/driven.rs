@@ -172,7 +172,7 @@ pub(super) fn meets_others(scene: &Scene, interface: &InterfaceDefinition, body:
         .into_iter()
         .any(|i| pair(model, i).contains(&Some(body)));
     let t = model.steps.last().map_or(0.0, |s| s.end);
-    meets || scene.contact.couplings.acting(t).next().is_some()
+    meets || scene.couplings().acting(t).next().is_some()
 }
 
 /// How far a body that is moved at most gets in a dynamic analysis `[m]`, initial velocities only.

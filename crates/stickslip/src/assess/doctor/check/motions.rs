@@ -56,7 +56,7 @@ pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
             all.extend(own);
         }
     }
-    let stops = view.contact.couplings.stops(t);
+    let stops = view.couplings().stops(t);
     all.extend(stops.map(|row| row.terms().collect()));
     let free = floating(view, t, &all);
     if !free.is_empty() {
