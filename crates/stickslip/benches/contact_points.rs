@@ -219,6 +219,7 @@ fn measure(name: &str, kind: ElementKind, bent: bool, kinematics: KinematicsMode
         at,
         dt: 1.0,
         rate: None,
+        frames: None,
     };
     let mut out = Assembler::new(interface.dofs.count());
     interface.begin();

@@ -35,6 +35,7 @@ impl Balance {
             at,
             dt: at.t - from.t,
             rate: system.rate,
+            frames: system.frames,
         };
         out.reset(tangent);
         for force in &mut system.contact {

@@ -46,6 +46,7 @@ fn augment(attempt: &mut Attempt) -> Option<f64> {
         at: attempt.at,
         dt: attempt.at.t - attempt.from.t,
         rate: attempt.system.rate,
+        frames: attempt.system.frames,
     };
     let mut worst: f64 = 0.0;
     for force in &mut attempt.system.contact {

@@ -1,8 +1,10 @@
 //! The equations: balance of the bulk and the interfaces, with prescribed displacements.
 
+use std::sync::Arc;
+
 use super::bulk::Bulk;
 use crate::system::{
-    ActiveSet, Assembler, Constraints, Culprit, Dofs, Force, Links, Rate, State, Tally,
+    ActiveSet, Assembler, BodyFrames, Constraints, Culprit, Dofs, Force, Links, Rate, State, Tally,
 };
 
 /// What is solved: the balance of the bulk and the interfaces with prescribed displacements.
@@ -15,6 +17,8 @@ pub struct System<'a> {
     pub contact: Vec<&'a mut dyn Force>,
     /// How velocities follow from displacements, for forces that depend on them.
     pub rate: Option<Rate<'a>>,
+    /// The frames in which forces see bodies that turn freely; `None` where these are those of the model.
+    pub frames: Option<&'a Arc<BodyFrames>>,
     /// Prescribed displacements at the time of evaluation.
     pub constraints: Constraints,
     /// Rigid bodies; the dofs of their points are fixed, and the bulk has nothing there.

@@ -161,6 +161,18 @@ impl Assembler {
         self.wants_tangent = wants_tangent;
     }
 
+    /// Empties it for an evaluation that has as many dofs as another one and wants the same.
+    pub fn begin_beside(&mut self, other: &Assembler) {
+        if self.residual.len() != other.residual.len() {
+            *self = Assembler::new(other.residual.len());
+        }
+        self.wants_surrogate = other.wants_surrogate;
+        self.wants_pairs = other.wants_pairs;
+        self.holds_turns = other.holds_turns;
+        self.tentative = other.tentative;
+        self.reset(other.wants_tangent);
+    }
+
     /// Takes how gaps and slips curve out of the tangent, and blocks that hold nothing else.
     pub fn straighten(&mut self) {
         self.blocks.iter_mut().for_each(|b| b.hessian.clear());

@@ -1,3 +1,6 @@
+use std::sync::Arc;
+
+use super::body_frames::BodyFrames;
 use super::{Assembler, StepFailure};
 use crate::friction::PointLaw;
 
@@ -25,6 +28,8 @@ pub struct Stage<'a> {
     pub dt: f64,
     /// How the velocities at the end follow from the displacements; `None` where inertia plays no part.
     pub rate: Option<Rate<'a>>,
+    /// The frames in which bodies that turn freely are seen; `None` where these are those of the model.
+    pub frames: Option<&'a Arc<BodyFrames>>,
 }
 
 /// The velocity at the end of an increment as the integrator has it: `dt v = gain (u - u_from) + shift`, dof by dof.

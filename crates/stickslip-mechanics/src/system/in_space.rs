@@ -33,6 +33,11 @@ impl InSpace {
         }
     }
 
+    /// The frames.
+    pub fn frames(&self) -> &BodyFrames {
+        &self.frames
+    }
+
     /// Whether nothing is seen from a frame.
     pub fn is_empty(&self) -> bool {
         self.places.is_empty()

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::doctor::Finding;
 use super::view::View;
-use crate::contact::interface::InterfaceDefinition;
+use crate::contact::interface::{InterfaceDefinition, gaps_at};
 use crate::error::RunError;
 use crate::math::add;
 use crate::model::contact::Contact;
@@ -141,9 +141,10 @@ pub(crate) fn start_gaps(model: &Model, frame: &Frame, contact: &mut Contact) ->
         at: &end,
         dt: end.t - start.t,
         rate: None,
+        frames: None,
     };
     let interfaces = contact.interfaces.iter_mut();
-    interfaces.map(|i| i.gaps_at(&stage)).collect()
+    interfaces.map(|i| gaps_at(i, &stage)).collect()
 }
 
 impl View<'_> {

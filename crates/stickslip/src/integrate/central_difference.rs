@@ -9,7 +9,7 @@ use super::drift::Drift;
 use super::exact::Exact;
 use super::explicit::{Explicit, unstable};
 use super::integrator::Integrator;
-use super::sight::{enter_here, leave};
+use super::sight::frames_here;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
@@ -215,7 +215,7 @@ impl Explicit {
         model.links.transfer(&mut self.force);
         self.damp(model, (u, &at.v));
         self.out.reset(false);
-        let frames = enter_here(model, contact, u);
+        let frames = frames_here(model, u);
         let there = Spinning::new(&model.frames, u);
         let (mut from, mut seen) = (Cow::Borrowed(&frame.state), Cow::Borrowed(at));
         if !there.is_empty() {
@@ -228,6 +228,7 @@ impl Explicit {
             at: &seen,
             dt,
             rate: None,
+            frames: frames.as_ref(),
         };
         let mut interfaces = contact.interfaces.iter_mut();
         let assembled = interfaces.try_for_each(|interface| {
@@ -235,7 +236,6 @@ impl Explicit {
             interface.prepare(&stage);
             interface.assemble(&stage, &mut self.out)
         });
-        leave(model, contact, frames);
         assembled?;
         contact.couplings.assemble(&stage, &mut self.out)?;
         model.links.transfer(&mut self.out.residual);

@@ -10,6 +10,7 @@
 //!
 //! Rows that say the same twice leave `λ` undetermined, but not `Aᵀ λ`: conjugate gradients find one of all.
 
+use crate::contact::interface::pull_ties;
 use crate::contact::look;
 use std::collections::BTreeMap;
 
@@ -373,7 +374,7 @@ impl Exact {
         }
         for (interface, tractions) in contact.interfaces.iter_mut().zip(&tractions) {
             if !tractions.is_empty() {
-                interface.pull_ties(tractions, out.as_deref_mut());
+                pull_ties(interface, tractions, out.as_deref_mut());
             }
         }
     }

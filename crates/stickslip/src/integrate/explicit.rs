@@ -11,7 +11,7 @@ use std::sync::Arc;
 use super::exact::{Exact, Mobility};
 use super::onset::{AFTER, initial_contact, look_at_contact};
 use crate::body::internal::{InternalForce, largest_eigenvalue};
-use crate::contact::interface::Interface;
+use crate::contact::interface::{Interface, use_springs};
 use crate::error::{Error, RunError};
 use crate::model::contact::Contact;
 use crate::model::definition::{Dynamic, Model};
@@ -274,7 +274,7 @@ impl Explicit {
         let constraints = frame.constraints(model, soon);
         explicit.loaded = !model.loads.is_empty() || model.heat.is_some();
         for interface in &mut contact.interfaces {
-            frame.ledger.initial += interface.use_springs(true);
+            frame.ledger.initial += use_springs(interface, true);
         }
         let couplings = &mut contact.couplings;
         couplings.use_springs(true);

@@ -6,6 +6,7 @@ use super::quasi_static::pairs;
 use super::sight::Acting;
 use crate::contact::look;
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use crate::math::vector::dot;
 use crate::model::contact::Contact;
@@ -20,7 +21,7 @@ use crate::solve::inertia::in_motion;
 use crate::solve::inertia::{Inertia, times};
 use crate::solve::iteration::{Load, Task};
 use crate::solve::solver::{Solver, entries};
-use crate::system::{Cause, Constraints, Rate, Spinning, Stage, State, StepFailure};
+use crate::system::{BodyFrames, Cause, Constraints, Rate, Spinning, Stage, State, StepFailure};
 use crate::time::Trial;
 use crate::time::newmark::{Increment, error_factor};
 use crate::time::scheme::Alphas;
@@ -65,6 +66,15 @@ struct Guess {
     forces: Vec<f64>,
     /// Size of what balances in them.
     scale: f64,
+}
+
+/// What the equilibrium at the stage is sought with.
+struct Balance<'a> {
+    guess: &'a Guess,
+    constraints: Constraints,
+    rate: Rate<'a>,
+    /// The frames in which bodies that turn freely are seen.
+    frames: Option<&'a Arc<BodyFrames>>,
 }
 
 impl Integrator for Implicit {
@@ -112,7 +122,7 @@ impl Implicit {
         let scheme = self.meeting(impulse);
         let weights = scheme.weights(impulse);
         let interfaces = contact.interfaces.iter_mut();
-        interfaces.for_each(|i| i.directives.impulses = impulse);
+        interfaces.for_each(|i| i.conditions.impulses = impulse);
         let dt = inertia.ready(
             entries(&solver.stiffness),
             scheme.alphas,
@@ -157,10 +167,16 @@ impl Implicit {
             u: guess.u.clone(),
             ..State::default()
         };
+        let frames = sight.as_ref().map(|sight| &sight.all);
         let mut passes = 0;
         let (converged, internal) = loop {
-            let task = (constraints.clone(), rate);
-            let found = scheme.solve(model, frame, contact, solver, (&guess, task), &mut at)?;
+            let balance = Balance {
+                guess: &guess,
+                constraints: constraints.clone(),
+                rate,
+                frames,
+            };
+            let found = scheme.solve(model, frame, contact, solver, balance, &mut at)?;
             let Some(sight) = &sight else {
                 break found;
             };
@@ -210,6 +226,7 @@ impl Implicit {
                 at: &at,
                 dt,
                 rate: Some(rate),
+                frames,
             };
             let bodies = (model, inertia, fixed.as_slice());
             flow.impact = stop(bodies, contact, &stage, &mut solved.state.v)?;
@@ -319,9 +336,15 @@ impl Implicit {
         frame: &Frame,
         contact: &mut Contact,
         solver: &mut Solver,
-        (guess, (constraints, rate)): (&Guess, (Constraints, Rate)),
+        balance: Balance,
         at: &mut State,
     ) -> Result<(Converged, Vec<f64>), StepFailure> {
+        let Balance {
+            guess,
+            constraints,
+            rate,
+            frames,
+        } = balance;
         let fixed = constraints.fixed.clone();
         let condensed = solver.condense_in_motion(model, frame, contact, &fixed);
         if let Some(broken) = solver.condenser.broken() {
@@ -338,6 +361,7 @@ impl Implicit {
             load,
             constraints,
             rate: Some(rate),
+            frames,
             from: &frame.state,
         };
         let mut converged = match condensed {

@@ -18,7 +18,7 @@
 //! the mass, on those with which pressed points stay where they are: the law of impact of
 //! [`jean_moreau_1992`](crate::references::jean_moreau_1992) with no restitution. A projection makes no energy.
 
-use crate::contact::interface::Pressed;
+use crate::contact::interface::{Pressed, pressed_points};
 use crate::contact::look;
 use crate::math::vector::dot;
 use crate::model::contact::Contact;
@@ -74,7 +74,7 @@ pub(super) fn stop(
     v: &mut Vec<f64>,
 ) -> Result<f64, StepFailure> {
     let interfaces = contact.interfaces.iter_mut();
-    let pressed: Vec<Pressed> = interfaces.flat_map(|i| i.pressed(stage)).collect();
+    let pressed: Vec<Pressed> = interfaces.flat_map(|i| pressed_points(i, stage)).collect();
     let both = stage.at.u.iter().zip(&stage.from.u);
     let moved: Vec<f64> = both.map(|(a, b)| a - b).collect();
     let rates = |x: &[f64]| -> Vec<f64> {

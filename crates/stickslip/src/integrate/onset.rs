@@ -2,8 +2,12 @@
 
 use super::implicit::{BACKWARD, Implicit, difference};
 use super::integrator::Integrator;
-use super::sight::{enter_here, leave};
+use super::sight::frames_here;
 use crate::body::couplings::Couplings;
+use crate::contact::interface::{
+    add_initial_forces, adopt_light_tractions, adopt_tractions, evaluate_laws,
+    presses_light_points, set_masses, tried_tractions,
+};
 use crate::contact::look;
 use crate::error::Error;
 use crate::math::vector::dot;
@@ -87,9 +91,10 @@ impl Implicit {
             at: &at,
             dt,
             rate: None,
+            frames: None,
         };
         let mut interfaces = contact.interfaces.iter_mut();
-        if !interfaces.any(|i| i.presses_light_points(&stage)) {
+        if !interfaces.any(|i| presses_light_points(i, &stage)) {
             return None;
         }
         let trial = Trial {
@@ -107,8 +112,8 @@ impl Implicit {
         inertia.forget_matrices();
         let accepted = tried.ok()?;
         for interface in &mut contact.interfaces {
-            let tried = interface.tried();
-            interface.adopt_light(&tried);
+            let tried = tried_tractions(interface);
+            adopt_light_tractions(interface, &tried);
         }
         let moved = frame.state.u.iter_mut().zip(&accepted.state.u);
         for ((u, to), _) in moved.zip(&inertia.light).filter(|(_, light)| **light) {
@@ -174,7 +179,7 @@ impl Implicit {
             });
             contact.couplings.memory = couplings.clone();
             let interfaces = contact.interfaces.iter();
-            let after: Vec<_> = interfaces.map(|i| i.tried()).collect();
+            let after: Vec<_> = interfaces.map(tried_tractions).collect();
             tried.map(|contact| (contact, after))
         });
         let [Ok((short, after)), Ok((long, _))] = tried else {
@@ -185,7 +190,7 @@ impl Implicit {
             return None;
         }
         for (interface, tried) in contact.interfaces.iter_mut().zip(&after) {
-            interface.adopt(tried);
+            adopt_tractions(interface, tried);
         }
         let (u, v, at) = (&frame.state.u, &frame.state.v, t + AFTER * dt);
         let add = |c: &Couplings, out: &mut [f64]| c.add_initial(at, (u, v), out);
@@ -216,7 +221,7 @@ fn start_motion(
     };
     let masses = inertia.at_points(model);
     for interface in &mut contact.interfaces {
-        interface.set_masses(&masses);
+        set_masses(interface, &masses);
     }
     let before = inertia.kinetic_energy(&frame.state.v);
     model.apply_initial_velocities(frame.step, &mut frame.state.v);
@@ -290,18 +295,19 @@ pub(crate) fn initial_contact(
 ) -> Result<Vec<f64>, StepFailure> {
     let (before, at) = at_start(model, frame, t, dt);
     let u = &frame.state.u;
+    let frames = frames_here(model, u);
     let stage = Stage {
         from: &before,
         at: &at,
         dt,
         rate: None,
+        frames: frames.as_ref(),
     };
     let mut forces = vec![0.0; u.len()];
-    let frames = enter_here(model, contact, u);
     let interfaces = contact.interfaces.iter_mut();
-    let stored: Result<f64, StepFailure> =
-        interfaces.map(|i| i.add_initial(&stage, &mut forces)).sum();
-    leave(model, contact, frames);
+    let stored: Result<f64, StepFailure> = interfaces
+        .map(|i| add_initial_forces(i, &stage, &mut forces))
+        .sum();
     let stored = stored?;
     frame.ledger.initial += stored;
     frame.ledger.contact += stored;
@@ -321,16 +327,16 @@ pub(crate) fn look_at_contact(
     dt: f64,
 ) {
     let (before, at) = at_start(model, frame, t, dt);
+    let frames = frames_here(model, &frame.state.u);
     let stage = Stage {
         from: &before,
         at: &at,
         dt,
         rate: None,
+        frames: frames.as_ref(),
     };
-    let frames = enter_here(model, contact, &frame.state.u);
     let interfaces = contact.interfaces.iter_mut();
-    interfaces.for_each(|i| i.look(&stage));
-    leave(model, contact, frames);
+    interfaces.for_each(|i| evaluate_laws(i, &stage));
 }
 
 /// Whether points with mass touch where the laws alone do not tell the forces: a multiplier presses them, or they are those of a rigid body and

@@ -45,6 +45,7 @@ impl Integrator for QuasiStatic {
             load: Load::External(external.clone()),
             constraints,
             rate: None,
+            frames: None,
             from: &frame.state,
         };
         let converged = solver.solve_sparse(model, contact, task, &mut at)?;

@@ -7,9 +7,7 @@
 
 use std::sync::Arc;
 
-use crate::contact::interface::Interface;
 use crate::math::{Vec3, norm, scale};
-use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::{Frame, Motion};
 use crate::newton::Converged;
@@ -90,14 +88,6 @@ impl<'a> Sight<'a> {
             frames: BodyFrames::new(model.dofs, all),
             spinning: Spinning::new(&model.frames, &frame.state.u),
         }
-    }
-
-    /// Lets interfaces see bodies from here; the frames that they had.
-    pub fn enter(&self, model: &Model, contact: &mut Contact) -> Vec<Arc<BodyFrames>> {
-        let interfaces = contact.interfaces.iter_mut().filter(|i| turns(model, i));
-        let each =
-            interfaces.map(|i| std::mem::replace(&mut i.definition.frames, Arc::clone(&self.all)));
-        each.collect()
     }
 
     /// The start as it is seen.
@@ -277,32 +267,10 @@ impl<'a> Sight<'a> {
     }
 }
 
-/// Lets interfaces see rigid bodies that turn in space from where they are at displacements `u`; the frames that they had.
-pub(super) fn enter_here(model: &Model, contact: &mut Contact, u: &[f64]) -> Vec<Arc<BodyFrames>> {
-    if model.frames.spun().is_empty() {
-        return Vec::new();
-    }
-    let here = Arc::new(model.frames.from_here(u));
-    let interfaces = contact.interfaces.iter_mut().filter(|i| turns(model, i));
-    let each = interfaces.map(|i| match i.frames.is_empty() {
-        true => Arc::clone(&i.frames),
-        false => std::mem::replace(&mut i.definition.frames, Arc::clone(&here)),
-    });
-    each.collect()
-}
-
-/// Gives interfaces their frames back.
-pub(super) fn leave(model: &Model, contact: &mut Contact, before: Vec<Arc<BodyFrames>>) {
-    let interfaces = contact.interfaces.iter_mut().filter(|i| turns(model, i));
-    interfaces
-        .zip(before)
-        .for_each(|(i, before)| i.definition.frames = before);
-}
-
-/// Whether a body that turns freely takes part in it.
-fn turns(model: &Model, interface: &Interface) -> bool {
-    let freely = |n| model.corotations.of_point(n).is_some() || model.frames.of_point(n).is_some();
-    interface.nodes.iter().any(|&n| freely(n))
+/// The frames in which interfaces see rigid bodies that turn in space, from where they are at displacements `u`; `None` where there are no such bodies.
+pub(super) fn frames_here(model: &Model, u: &[f64]) -> Option<Arc<BodyFrames>> {
+    let spun = !model.frames.spun().is_empty();
+    spun.then(|| Arc::new(model.frames.from_here(u)))
 }
 
 /// What an increment is seen from, without its start.

@@ -6,7 +6,7 @@
 
 use super::implicit::{Implicit, difference};
 use super::quasi_static::{QuasiStatic, pairs};
-use super::sight::{Acting, Sight, in_space, leave};
+use super::sight::{Acting, Sight, in_space};
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
@@ -33,7 +33,6 @@ impl Implicit {
         let mut external = Vec::new();
         sight.load(model, &inside.state.u, trial.to, &mut external);
         let constraints = sight.constraints(model, trial.to);
-        let before = sight.enter(model, contact);
         let outlook = sight.outlook();
         let acting = Acting {
             constraints,
@@ -41,7 +40,6 @@ impl Implicit {
             sight: Some(sight),
         };
         let found = self.increment((model, &inside), acting, contact, solver, trial);
-        leave(model, contact, before);
         found.map(|accepted| in_space(model, &outlook, accepted))
     }
 }
@@ -63,10 +61,8 @@ impl QuasiStatic {
                 false => model.corotations.turns(&u),
             };
             let sight = Sight::from(model, frame, &turns);
-            let before = sight.enter(model, contact);
             let seen = sight.place(&model.mesh.points, &u);
             let found = pass(&sight, model, contact, solver, (trial, passes), seen);
-            leave(model, contact, before);
             let (met, accepted) = found?;
             let accepted = in_space(model, &sight.outlook(), accepted);
             if met {
@@ -105,6 +101,7 @@ fn pass(
         load: Load::External(difference(&external, &missed)),
         constraints,
         rate: None,
+        frames: Some(&sight.all),
         from: &inside.state,
     };
     let converged = solver.solve_sparse(model, contact, task, &mut at)?;

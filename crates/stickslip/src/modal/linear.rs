@@ -5,13 +5,12 @@ use std::collections::BTreeSet;
 use super::bound::{Bound, Sparse};
 use crate::body::MassKind;
 use crate::body::couplings::{Meets, Row};
-use crate::contact::interface::LinearPoint;
+use crate::contact::interface::{LinearPoint, linearise};
 use crate::contact::response::Status;
 use crate::error::RunError;
 use crate::linear::BlockCsr;
-use crate::math::scale;
 use crate::model::contact::Contact;
-use crate::model::definition::Model;
+use crate::model::definition::{Model, Step};
 use crate::model::frame::Frame;
 use crate::solve::inertia::Inertia;
 use crate::solve::solver::{Solver, entries};
@@ -19,6 +18,11 @@ use crate::system::{ContactBlock, Links, Stage};
 
 /// Part of a step after which what acts in it acts.
 const SOON: f64 = 1e-3;
+
+/// The time at which modes of a step are asked for `[s]`.
+fn soon(step: &Step) -> f64 {
+    step.start + SOON * (step.end - step.start)
+}
 
 /// A matrix of rank one, `left rightᵀ`.
 #[derive(Debug, Clone, PartialEq)]
@@ -87,7 +91,7 @@ impl Linear {
         solver: &Solver,
     ) -> Result<Self, RunError> {
         let step = &model.steps[frame.step];
-        let t = step.start + SOON * (step.end - step.start);
+        let t = soon(step);
         let fixed = frame.constraints(model, t).fixed;
         let (mut parts, mut equations) = (Parts::default(), Vec::new());
         for (row, meets) in contact.coupled(frame).linearise(t) {
@@ -107,7 +111,7 @@ impl Linear {
             parts.couple(&model.links, block, (stiffness, damping));
         }
         let bound = Bound::new(equations, &fixed);
-        let lines = points(frame, contact, t, step.end - step.start);
+        let lines = points(step, frame, contact, 1.0);
         let mut linear = Linear::empty(model.dofs.dim, fixed, bound);
         linear.add_all(model, &lines, &mut parts);
         parts.assemble(model, contact, solver, &mut linear);
@@ -153,22 +157,7 @@ impl Linear {
         factor: f64,
     ) -> Linear {
         let step = &model.steps[frame.step];
-        let t = step.start + SOON * (step.end - step.start);
-        let all = contact.interfaces.iter();
-        let before: Vec<_> = all.map(|i| (i.directives.steady, i.belt.clone())).collect();
-        for interface in &mut contact.interfaces {
-            for row in &mut interface.definition.belt {
-                row[1..].iter_mut().for_each(|v| *v *= factor);
-            }
-            if let Some(steady) = &mut interface.directives.steady {
-                steady.velocity = scale(factor, steady.velocity);
-                steady.turning = scale(factor, steady.turning);
-            }
-        }
-        let lines = points(frame, contact, t, step.end - step.start);
-        for (interface, (steady, belt)) in contact.interfaces.iter_mut().zip(before) {
-            (interface.directives.steady, interface.definition.belt) = (steady, belt);
-        }
+        let lines = points(step, frame, contact, factor);
         let mut linear = Linear::empty(model.dofs.dim, self.fixed.clone(), self.bound.clone());
         linear.add_all(model, &lines, &mut Parts::default());
         linear
@@ -373,22 +362,26 @@ pub(crate) fn fault(frame: &Frame, message: impl Into<String>) -> RunError {
 
 /// Contact points by interface, at the state that was reached.
 fn points(
+    step: &Step,
     frame: &Frame,
     contact: &mut Contact,
-    t: f64,
-    dt: f64,
+    pace: f64,
 ) -> Vec<(String, Vec<LinearPoint>)> {
     let from = &frame.state;
     let mut at = from.clone();
-    at.t = t;
+    at.t = soon(step);
     let stage = Stage {
         from,
         at: &at,
-        dt,
+        dt: step.end - step.start,
         rate: None,
+        frames: None,
     };
     let interfaces = contact.interfaces.iter_mut();
-    let lines = interfaces.map(|i| (i.name.clone(), i.linearise(&stage)));
+    let lines = interfaces.map(|i| {
+        let conditions = i.conditions.at_pace(pace);
+        (i.name.clone(), linearise(i, &conditions, &stage))
+    });
     lines.collect()
 }
 

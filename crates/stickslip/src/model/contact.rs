@@ -3,7 +3,7 @@
 use super::definition::Step;
 use super::frame::{ContactMemory, Frame};
 use crate::body::couplings::{Couplings, CouplingsView};
-use crate::contact::interface::{ContactView, Interface};
+use crate::contact::interface::{self, ContactView, Interface};
 use crate::system::{Force, Stage, State};
 
 /// Interfaces and couplings: where bodies touch and what ties their points.
@@ -32,7 +32,7 @@ impl Contact {
             definition: &interface.definition,
             state: match &frame.contacts {
                 Some(known) => &known.interfaces[k],
-                None => &interface.history,
+                None => &interface.state,
             },
         })
     }
@@ -49,7 +49,7 @@ impl Contact {
     /// What interfaces and couplings have been through.
     pub(crate) fn memory(&self) -> ContactMemory {
         ContactMemory {
-            interfaces: self.interfaces.iter().map(|i| i.history.clone()).collect(),
+            interfaces: self.interfaces.iter().map(|i| i.state.clone()).collect(),
             couplings: self.couplings.memory.clone(),
         }
     }
@@ -57,7 +57,7 @@ impl Contact {
     /// Lets them go on from that.
     pub(crate) fn go_on_from(&mut self, memory: ContactMemory) {
         for (interface, history) in self.interfaces.iter_mut().zip(memory.interfaces) {
-            interface.history = history;
+            interface.state = history;
         }
         self.couplings.memory = memory.couplings;
     }
@@ -73,7 +73,7 @@ impl Contact {
     /// Lets all of them act as springs, as explicit increments need it, or as they are; the energy that comes in by it `[J]`, one by one.
     pub(crate) fn use_springs(&mut self, wanted: bool, mut bring: impl FnMut(f64)) {
         for interface in &mut self.interfaces {
-            bring(interface.use_springs(wanted));
+            bring(interface::use_springs(interface, wanted));
         }
         bring(self.couplings.use_springs(wanted));
     }
@@ -83,7 +83,7 @@ impl Contact {
         for (name, change) in &step.changes {
             let all = self.interfaces.iter_mut();
             for interface in all.filter(|i| i.name == *name) {
-                bring(interface.change(change));
+                bring(interface::change(interface, change));
             }
         }
     }
@@ -98,9 +98,10 @@ impl Contact {
             at: &at,
             dt: at.t - state.t,
             rate: None,
+            frames: None,
         };
         for interface in &mut self.interfaces {
-            interface.begin_acting(&stage, span);
+            interface::begin_acting(interface, &stage, span);
         }
     }
 }

@@ -20,7 +20,7 @@ impl Simulation {
     pub(super) fn begin_sliding(&mut self, step: usize) {
         let plan = lasting(&self.model, step);
         for interface in &mut self.contact.interfaces {
-            interface.directives.steady = match (plan, &self.model.steps[step].modal) {
+            interface.conditions.steady = match (plan, &self.model.steps[step].modal) {
                 (Some(plan), _) => Some(plan.of(&interface.name)),
                 // A belt runs all the time, whoever set it going.
                 (None, Some(_)) => Some(Steady::default()),

@@ -178,12 +178,12 @@ impl Simulation {
         let views = self.contact.views(&self.frame);
         let State { u, t, .. } = &self.frame.state;
         let interfaces = self.contact.interfaces.iter().zip(views);
-        let gaps = interfaces.map(|(i, view)| look::excluded_gaps(view, &i.directives, u, *t));
+        let gaps = interfaces.map(|(i, view)| look::excluded_gaps(view, &i.conditions, u, *t));
         let gaps: Vec<_> = gaps.collect();
         let histories: Vec<_> = match &mut self.frame.contacts {
             Some(known) => known.interfaces.iter_mut().collect(),
             None => (self.contact.interfaces.iter_mut())
-                .map(|i| &mut i.history)
+                .map(|i| &mut i.state)
                 .collect(),
         };
         for (history, gaps) in histories.into_iter().zip(gaps) {

@@ -6,7 +6,7 @@ use std::time::Instant;
 use super::checkpoint::{Checkpoint, Position, Working};
 use super::position::{Increments, Steps};
 use super::simulation::Simulation;
-use crate::contact::interface::History;
+use crate::contact::interface::{History, memory, remember};
 use crate::error::{Error, RunError};
 use crate::integrate::explicit::{Explicit, ExplicitState};
 use crate::integrate::implicit::Implicit;
@@ -30,7 +30,7 @@ impl Simulation {
 
     /// The same with another working state than that of now.
     pub(super) fn checkpoint_with(&self, working: Working) -> Checkpoint {
-        let histories = self.contact.interfaces.iter().map(|i| i.history.clone());
+        let histories = self.contact.interfaces.iter().map(|i| i.state.clone());
         Checkpoint {
             frame: self.frame.clone(),
             histories: histories.collect(),
@@ -52,7 +52,7 @@ impl Simulation {
     pub(super) fn working(&self) -> Working {
         let interfaces = self.contact.interfaces.iter();
         Working {
-            interfaces: interfaces.map(|i| i.memory()).collect(),
+            interfaces: interfaces.map(memory).collect(),
             couplings: self.contact.couplings.state(),
             explicit: self.integration.explicit().map(Explicit::state),
             solver: self.solver.state(),
@@ -108,7 +108,7 @@ impl Simulation {
             ..
         } = simulation;
         for (interface, history) in contact.interfaces.iter_mut().zip(histories) {
-            interface.history = history;
+            interface.state = history;
         }
         // Of increments that wait the frame knows nothing yet.
         let waiting = pending.last().is_some_and(|p| p.found.is_some());
@@ -118,7 +118,7 @@ impl Simulation {
             _ => frame.state.u.clone(),
         };
         for (interface, memory) in contact.interfaces.iter_mut().zip(working.interfaces) {
-            interface.remember(memory, &u);
+            remember(interface, memory, &u);
         }
         contact.couplings.go_on_from(working.couplings);
         let t = frame.state.t;

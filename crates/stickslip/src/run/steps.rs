@@ -7,6 +7,7 @@ use std::time::Instant;
 use super::queue::{Failed, Pending};
 use super::simulation::{Simulation, view};
 use crate::assess::doctor;
+use crate::contact::interface::set_masses;
 use crate::error::Error;
 use crate::integrate::explicit::Explicit;
 use crate::integrate::implicit::Implicit;
@@ -250,7 +251,7 @@ impl Simulation {
         frame.motion = Motion::default();
         solver.come_to_rest();
         for interface in &mut contact.interfaces {
-            interface.set_masses(&[]);
+            set_masses(interface, &[]);
         }
         contact.use_springs(false, |energy| frame.ledger.initial += energy);
         self.integration = Integration::QuasiStatic(QuasiStatic);
@@ -369,7 +370,7 @@ impl Simulation {
         let block = step.cycles.map(|c| c.block(since, self.frame.block));
         let skipped = block.map_or(0.0, |b| b.stands_for as f64 - 1.0);
         for interface in &mut self.contact.interfaces {
-            interface.skip(skipped);
+            interface.conditions.skipped = skipped;
         }
     }
 

@@ -57,6 +57,7 @@ impl Accepted {
             at: &self.state,
             dt: trial.to - trial.from,
             rate: rate.map(|(gain, shift)| Rate { gain, shift }),
+            frames: None,
         }
     }
 }

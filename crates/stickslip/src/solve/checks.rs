@@ -1,5 +1,6 @@
 //! Solutions that are refused although Newton's method has found them.
 
+use crate::contact::interface::spreads;
 use crate::contact::look;
 use crate::math::larger;
 use crate::model::contact::Contact;
@@ -110,7 +111,7 @@ pub(crate) fn check_way(
 
 /// Refuses a solution with contact near points that do not take part.
 pub(crate) fn check_candidates(contact: &Contact) -> Result<(), StepFailure> {
-    if contact.interfaces.iter().any(|i| i.spreads()) {
+    if contact.interfaces.iter().any(spreads) {
         return Err(StepFailure::new(
             Cause::Reach,
             "contact comes near to points that were not expected to be touched",

@@ -1,5 +1,6 @@
 //! Moves loose bodies, as rigid ones, the way their loads push them until they touch.
 
+use crate::contact::interface::meeting;
 use crate::math::{Vec3, add, add_scaled, dot, norm, scale, symmetric_eigen};
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
@@ -83,7 +84,7 @@ pub(crate) fn close(
         let (mut way, mut touching) = (f64::INFINITY, Vec::new());
         for interface in &mut contact.interfaces {
             if interface.schedule.active(trial.to) {
-                let meeting = interface.meeting(&u, &w, trial.from);
+                let meeting = meeting(interface, &u, &w, trial.from);
                 way = way.min(meeting.way);
                 touching.extend(meeting.touching);
             }

@@ -7,7 +7,7 @@ use super::rigid_part::rigid_part;
 use super::solver::Solver;
 use super::work::Work;
 use crate::body::{Anchors, Hold, spread};
-use crate::contact::interface::Interface;
+use crate::contact::interface::{Interface, gaps_at};
 use crate::contact::look;
 use crate::math::{dot, norm};
 use crate::model::contact::Contact;
@@ -253,13 +253,14 @@ impl Solver {
             at: &at,
             dt: trial.to - trial.from,
             rate: None,
+            frames: None,
         };
         let (mut gaps, mut size) = (0.0, 0.0_f64);
         let interfaces = contact.interfaces.iter_mut();
         for interface in interfaces.filter(|i| i.schedule.active(trial.to)) {
             let own = match pending {
                 true => look::initial_gaps(interface.view()),
-                false => interface.gaps_at(&stage),
+                false => gaps_at(interface, &stage),
             };
             let own = own.into_iter().filter(|gap| gap.is_finite());
             gaps += own.map(f64::abs).fold(0.0, f64::max);

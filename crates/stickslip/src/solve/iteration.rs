@@ -1,9 +1,11 @@
 //! One increment as a system, and Newton's method on it.
 
+use std::sync::Arc;
+
 use super::work::Seen;
 use crate::model::definition::Model;
 use crate::newton::{Bulk, Converged, Newton, Origin, System};
-use crate::system::{Constraints, Force, Rate, State, StepFailure};
+use crate::system::{BodyFrames, Constraints, Force, Rate, State, StepFailure};
 
 /// The forces of the bulk in an increment.
 pub(crate) enum Load {
@@ -21,6 +23,8 @@ pub(crate) struct Task<'a> {
     pub constraints: Constraints,
     /// How velocities follow from displacements.
     pub rate: Option<Rate<'a>>,
+    /// The frames in which bodies that turn freely are seen; `None` where these are those of the model.
+    pub frames: Option<&'a Arc<BodyFrames>>,
     /// The state at its start.
     pub from: &'a State,
 }
@@ -32,6 +36,8 @@ pub(crate) struct Iteration<'a> {
     pub model: &'a Model,
     pub forces: Vec<&'a mut dyn Force>,
     pub bulk: &'a mut dyn Bulk,
+    pub rate: Option<Rate<'a>>,
+    pub frames: Option<&'a Arc<BodyFrames>>,
 }
 
 impl<'a> Iteration<'a> {
@@ -39,14 +45,15 @@ impl<'a> Iteration<'a> {
     pub fn solve(
         self,
         constraints: Constraints,
-        rate: Option<Rate<'a>>,
-        (from, at): (&State, &mut State),
+        from: &State,
+        at: &mut State,
     ) -> Result<Converged, StepFailure> {
         let mut system = System {
             dofs: self.model.dofs,
             bulk: self.bulk,
             contact: self.forces,
-            rate,
+            rate: self.rate,
+            frames: self.frames,
             constraints,
             links: &self.model.links,
         };

@@ -142,8 +142,10 @@ impl Solver {
                 model,
                 forces,
                 bulk: &mut CurvedBulk::new(curved, external, fixed, linearised),
+                rate: task.rate,
+                frames: task.frames,
             }
-            .solve(task.constraints, task.rate, (task.from, at));
+            .solve(task.constraints, task.from, at);
         }
         let linearised = self.factors.of(key);
         Iteration {
@@ -152,8 +154,10 @@ impl Solver {
             model,
             forces,
             bulk: &mut SparseBulk::new(matrix, external, fixed, origin, linearised),
+            rate: task.rate,
+            frames: task.frames,
         }
-        .solve(task.constraints, task.rate, (task.from, at))
+        .solve(task.constraints, task.from, at)
     }
 }
 

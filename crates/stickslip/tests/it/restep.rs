@@ -90,6 +90,7 @@ fn attempt(interface: &mut Interface, from: &State, at: &State) -> [Bits; 3] {
         at,
         dt: at.t - from.t,
         rate: None,
+        frames: None,
     };
     let mut out = Assembler::new(interface.dofs.count());
     let mut evaluate = |interface: &mut Interface, tangent: bool| {
@@ -152,6 +153,7 @@ fn an_attempt_repeated_gives_the_same_bits() {
             at: &pressed,
             dt: 1.0,
             rate: None,
+            frames: None,
         };
         interface.commit(&stage);
         let energy = look::energy(interface.view());
@@ -181,6 +183,7 @@ fn an_attempt_repeated_gives_the_same_bits() {
             at: &slid,
             dt: 1.0,
             rate: None,
+            frames: None,
         };
         interface.commit(&stage);
         assert!(

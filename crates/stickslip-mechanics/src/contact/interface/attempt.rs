@@ -25,24 +25,19 @@ pub struct Attempt {
 }
 
 impl Attempt {
-    /// The next one, from these histories; vectors keep their memory.
-    pub(in crate::contact) fn next(self, histories: &[PointHistory], accepted_gap: f64) -> Self {
-        let Attempt {
-            mut multipliers,
-            mut flips,
-            ..
-        } = self;
-        multipliers.clear();
-        multipliers.extend(histories.iter().map(Multiplier::from));
-        flips.clear();
-        flips.resize(histories.len(), Flips::default());
-        Attempt {
-            multipliers,
-            flips,
-            accepted_gap,
-            never_in_contact: histories.iter().all(|h| h.status == Status::Open),
-            ..Attempt::default()
-        }
+    /// Begins the next one, from these histories; vectors keep their memory.
+    pub(in crate::contact) fn restart(&mut self, histories: &[PointHistory], accepted_gap: f64) {
+        self.multipliers.clear();
+        self.multipliers
+            .extend(histories.iter().map(Multiplier::from));
+        self.flips.clear();
+        self.flips.resize(histories.len(), Flips::default());
+        self.changed = 0;
+        self.tentative = false;
+        self.never_in_contact = histories.iter().all(|h| h.status == Status::Open);
+        self.accepted_gap = accepted_gap;
+        self.tightened = 0;
+        self.violation = None;
     }
 }
 
@@ -192,7 +187,8 @@ mod tests {
             ..PointHistory::default()
         };
         let histories = [history; 3];
-        let first = Attempt::default().next(&histories, 0.25);
+        let mut first = Attempt::default();
+        first.restart(&histories, 0.25);
         let mut spoiled = first.clone();
         spoiled.multipliers[1].pressure = 7.0;
         spoiled.flips[2].note(Status::Slip);
@@ -201,7 +197,8 @@ mod tests {
         spoiled.tentative = true;
         spoiled.tightened = 2;
         spoiled.violation = Some(1.0);
-        let again = spoiled.next(&histories, 0.25);
+        spoiled.restart(&histories, 0.25);
+        let again = spoiled;
         assert_eq!(again.multipliers, first.multipliers);
         assert_eq!(again.flips, first.flips);
         let rest = |a: &Attempt| {

@@ -1,6 +1,9 @@
 //! Updates of the multipliers between equilibrium solves.
 
+use super::evaluation::Evaluations;
+use super::input::InterfaceInput;
 use super::parts::Interface;
+use super::stiffness::own_stiffness;
 use crate::contact::enforcement::Multipliers;
 use crate::contact::response::Status;
 use crate::math::{distance, larger, norm};
@@ -12,84 +15,67 @@ const GAIN: f64 = 0.1;
 /// Roundings of the largest coordinate below which a violation is none.
 const ROUNDING: f64 = 16.0;
 
-/// Part of the tolerance by which a gap may be left as it is where a point stays in contact.
-const LEFT: f64 = 0.5;
-
-impl Interface {
-    /// The gap that an augmented Lagrangian may leave, by half: the part `error` of the elastic approach of the last accepted state.
-    pub(super) fn accepted(&self) -> f64 {
-        let Multipliers::Augmented { error } = self.laws.enforcement.as_dyn().multipliers() else {
-            return 0.0;
-        };
-        if !self.laws.needs_normal_stiffness() {
-            return 0.0;
-        }
-        let points = self.points.iter().zip(&self.history.points);
-        let approach = points.map(|(p, h)| h.pressure.abs() / p.stiffness);
-        LEFT * error * approach.fold(0.0, f64::max)
+/// Moves the centres of an augmented Lagrangian to the multipliers, and tightens the enforcement where that gains little.
+pub(super) fn update_multipliers(interface: &mut Interface, stage: &Stage) -> Augmentation {
+    let Multipliers::Augmented { error } = interface.laws.enforcement.as_dyn().multipliers() else {
+        return Augmentation::Done;
+    };
+    let approach = elastic_approach(interface.input(), &interface.cache.last, stage);
+    let worst = centre(interface);
+    let largest = interface.cache.geometry.search.at().iter();
+    let largest = largest.chain(&interface.reference);
+    let largest = largest.map(|&x| norm(x)).fold(0.0, f64::max);
+    if worst <= (error * approach).max(ROUNDING * f64::EPSILON * largest) {
+        return Augmentation::Done;
     }
-
-    /// Moves the centres of an augmented Lagrangian to the multipliers, and tightens the enforcement where that gains little.
-    pub(super) fn update_multipliers(&mut self, stage: &Stage) -> Augmentation {
-        let Multipliers::Augmented { error } = self.laws.enforcement.as_dyn().multipliers() else {
-            return Augmentation::Done;
-        };
-        let approach = self.elastic_approach(stage);
-        let worst = self.centre();
-        let largest = self.cache.search.at().iter().chain(&self.reference);
-        let largest = largest.map(|&x| norm(x)).fold(0.0, f64::max);
-        if worst <= (error * approach).max(ROUNDING * f64::EPSILON * largest) {
-            return Augmentation::Done;
-        }
-        // An update that gains little says that the stiffness is low for what presses on it.
-        let attempt = &mut self.attempt;
-        if attempt
-            .violation
-            .is_some_and(|before| worst > GAIN * before)
-        {
-            attempt.tightened += 1;
-        }
-        attempt.violation = Some(worst);
-        Augmentation::Again(worst / (error * approach).max(f64::MIN_POSITIVE))
+    // An update that gains little says that the stiffness is low for what presses on it.
+    let attempt = &mut interface.attempt;
+    if attempt
+        .violation
+        .is_some_and(|before| worst > GAIN * before)
+    {
+        attempt.tightened += 1;
     }
+    attempt.violation = Some(worst);
+    Augmentation::Again(worst / (error * approach).max(f64::MIN_POSITIVE))
+}
 
-    /// What violations, which are lengths, are compared with: the compression of one layer of cells under the largest pressure, or the way that the
-    /// pressure moves the mass of a point over the increment `[m]`.
-    fn elastic_approach(&self, stage: &Stage) -> f64 {
-        let moving = stage.rate.map(|_| stage.dt);
-        (self.cache.last.points.iter().enumerate())
-            .map(|(i, e)| {
-                let [p, t1, t2] = e.response.traction;
-                let largest = if self.laws.tied {
-                    p.abs().max(t1.hypot(t2))
-                } else {
-                    p
-                };
-                largest / self.own_stiffness(i, moving)
-            })
-            .fold(0.0, f64::max)
-    }
+/// What violations, which are lengths, are compared with: the compression of one layer of cells under the largest pressure, or the way that the
+/// pressure moves the mass of a point over the increment `[m]`.
+fn elastic_approach(interface: InterfaceInput, last: &Evaluations, stage: &Stage) -> f64 {
+    let moving = stage.rate.map(|_| stage.dt);
+    (last.points.iter().enumerate())
+        .map(|(i, e)| {
+            let [p, t1, t2] = e.response.traction;
+            let largest = if interface.laws.tied {
+                p.abs().max(t1.hypot(t2))
+            } else {
+                p
+            };
+            largest / own_stiffness(interface, i, moving)
+        })
+        .fold(0.0, f64::max)
+}
 
-    /// Makes the multipliers the centres of the next round; the largest length by which that moves them `[m]`.
-    fn centre(&mut self) -> f64 {
-        let mut worst: f64 = 0.0;
-        let multipliers = self.attempt.multipliers.iter_mut();
-        for (m, e) in multipliers.zip(&self.cache.last.points) {
-            let r = &e.response;
-            // A point that carries nothing has no stiffness either: what does not change is no violation.
-            let change = (r.traction[0] - m.centre_pressure).abs();
-            if e.normal_stiffness.is_finite() && change != 0.0 {
-                worst = larger(worst, change / e.normal_stiffness);
-            }
-            let shear = e.along(&e.frames.before);
-            let change = distance(shear, m.centre_shear);
-            if r.status == Status::Stick && e.tangential_stiffness.is_finite() && change != 0.0 {
-                worst = larger(worst, change / e.tangential_stiffness);
-            }
-            m.centre_pressure = r.traction[0];
-            m.centre_shear = shear;
-            m.centre_normal = e.frames.normal_before;
+/// Makes the multipliers the centres of the next round; the largest length by which that moves them `[m]`.
+fn centre(interface: &mut Interface) -> f64 {
+    let mut worst: f64 = 0.0;
+    let multipliers = interface.attempt.multipliers.iter_mut();
+    for (m, e) in multipliers.zip(&interface.cache.last.points) {
+        let r = &e.response;
+        // A point that carries nothing has no stiffness either: what does not change is no violation.
+        let change = (r.traction[0] - m.centre_pressure).abs();
+        if e.normal_stiffness.is_finite() && change != 0.0 {
+            worst = larger(worst, change / e.normal_stiffness);
         }
-        worst
+        let shear = e.along(&e.frames.before);
+        let change = distance(shear, m.centre_shear);
+        if r.status == Status::Stick && e.tangential_stiffness.is_finite() && change != 0.0 {
+            worst = larger(worst, change / e.tangential_stiffness);
+        }
+        m.centre_pressure = r.traction[0];
+        m.centre_shear = shear;
+        m.centre_normal = e.frames.normal_before;
     }
+    worst
 }

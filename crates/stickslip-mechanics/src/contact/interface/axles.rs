@@ -5,10 +5,15 @@
 //! Marquardt, and it keeps Newton's order ([Fan and Yuan](stickslip_base::references::fan_yuan_2005)).
 
 use super::definition::InterfaceDefinition;
-use crate::system::{Assembler, Tangent};
+use crate::system::{Assembler, BodyFrames, Tangent};
 
-/// Adds to the tangent what holds axles back that forces `b` by dof, out of balance, would turn.
-pub(super) fn hold_axles(definition: &InterfaceDefinition, b: &[f64], out: &mut Assembler) {
+/// Adds to the tangent what holds axles back, of bodies in these frames, that forces `b` by dof, out of balance, would turn.
+pub(super) fn hold_axles(
+    definition: &InterfaceDefinition,
+    frames: &BodyFrames,
+    b: &[f64],
+    out: &mut Assembler,
+) {
     if !definition.turns || definition.skin.is_empty() {
         return;
     }
@@ -17,7 +22,7 @@ pub(super) fn hold_axles(definition: &InterfaceDefinition, b: &[f64], out: &mut 
         .iter()
         .copied()
         .zip(definition.reference.iter().copied());
-    for (dofs, reach) in definition.frames.turns_by(points, definition.facet_size()) {
+    for (dofs, reach) in frames.turns_by(points, definition.facet_size()) {
         let moment = b[dofs.clone()].iter().map(|m| m * m).sum::<f64>().sqrt();
         for dof in dofs.filter(|&dof| b[dof] != 0.0) {
             let held = moment / reach;

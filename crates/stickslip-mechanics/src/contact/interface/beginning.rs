@@ -1,36 +1,68 @@
 //! How an interface begins to act: the gaps it counts from, and the places its points are moved to.
 
-use super::initial::{CLOSE, Start, Within};
+use super::initial::{CLOSE, GLUE, Start, Within};
 use super::parts::Interface;
-use crate::system::Stage;
+use super::pass::all_gaps_at;
+use crate::contact::surface::ContactPoint;
+use crate::system::{Stage, State};
 
-impl Interface {
-    /// Takes note of the gaps with which the interface begins to act, if it has not begun yet, in a step from `span[0]` to `span[1]`.
-    pub fn begin_acting(&mut self, stage: &Stage, span: [f64; 2]) {
-        if self.history.start.begun || !self.schedule.active(0.5 * (span[0] + span[1])) {
-            return;
-        }
-        self.history.start.begun = true;
-        self.history.start.span = span;
-        if !matches!(self.initial.start, Start::Offset | Start::Ramp) {
-            return;
-        }
-        let gaps = self.all_gaps_at(stage);
-        let largest = match self.initial.start {
-            Start::Offset => self.initial.within.unwrap_or(CLOSE),
-            _ => Within::Distance(0.0),
-        };
-        let points = gaps.iter().zip(&self.points).enumerate();
-        self.history.start.offset = points
-            .map(|(i, (&gap, point))| {
-                // It is the gap of the meshes that counts as another one: heights stay.
-                let gap = gap + self.relief.get(i).copied().unwrap_or(0.0);
-                if gap <= largest.of(point.size) {
-                    gap - self.initial.gap
-                } else {
-                    0.0
-                }
-            })
-            .collect();
+/// Takes note of the gaps with which the interface begins to act, if it has not begun yet, in a step from `span[0]` to `span[1]`.
+pub fn begin_acting(interface: &mut Interface, stage: &Stage, span: [f64; 2]) {
+    if interface.state.start.begun || !interface.schedule.active(0.5 * (span[0] + span[1])) {
+        return;
     }
+    interface.state.start.begun = true;
+    interface.state.start.span = span;
+    if !matches!(interface.initial.start, Start::Offset | Start::Ramp) {
+        return;
+    }
+    let gaps = all_gaps_at(interface, stage);
+    let largest = match interface.initial.start {
+        Start::Offset => interface.initial.within.unwrap_or(CLOSE),
+        _ => Within::Distance(0.0),
+    };
+    let points = gaps.iter().zip(&interface.points).enumerate();
+    let offset = points
+        .map(|(i, (&gap, point))| {
+            // It is the gap of the meshes that counts as another one: heights stay.
+            let gap = gap + interface.relief.get(i).copied().unwrap_or(0.0);
+            if gap <= largest.of(point.size) {
+                gap - interface.initial.gap
+            } else {
+                0.0
+            }
+        })
+        .collect();
+    interface.state.start.offset = offset;
+}
+
+/// Finds the distances of tied surfaces in the reference configuration.
+pub(super) fn glue(interface: &mut Interface, stage: &Stage) {
+    if !interface.laws.tied || !interface.state.start.glued.is_empty() {
+        return;
+    }
+    interface.state.start.glued = vec![0.0; interface.points.len()];
+    let rest = State {
+        t: stage.from.t,
+        u: vec![0.0; stage.at.u.len()],
+        ..State::default()
+    };
+    let still = Stage {
+        from: &rest,
+        at: &rest,
+        dt: stage.dt,
+        rate: None,
+        frames: stage.frames,
+    };
+    let gaps = all_gaps_at(interface, &still);
+    let within = interface.initial.within.unwrap_or(GLUE);
+    let near = |(gap, p): (f64, &ContactPoint)| {
+        if gap.abs() <= within.of(p.size) {
+            gap
+        } else {
+            f64::NAN
+        }
+    };
+    let glued = gaps.into_iter().zip(&interface.points).map(near).collect();
+    interface.state.start.glued = glued;
 }

@@ -14,26 +14,48 @@ use crate::system::{Assembler, InSpace};
 pub struct Cache {
     /// The last iterate; without points before there is one.
     pub(in crate::contact) last: Evaluations,
-    /// Memory for the next evaluation: what was evaluated before, or tentatively.
+    /// What was evaluated last, where that was not for the next iterate, or what the last iterate took the place of.
     pub(in crate::contact) trial: Evaluations,
-    /// Coordinates at the last evaluation, and at the accepted state that it started from.
-    pub(in crate::contact) x: Vec<Vec3>,
-    pub(in crate::contact) before: Vec<Vec3>,
-    /// The frames of bodies that turn at the last evaluation, and room to assemble what acts in space.
-    pub(in crate::contact) in_space: InSpace,
-    pub(in crate::contact) spatial: Assembler,
-    /// Where the facets lie, and which way they look.
-    pub(in crate::contact) bounds: Vec<Bounds>,
+    /// Where facets of the points were at the start.
     pub(in crate::contact) anchors: Vec<Option<Anchor>>,
+    /// Where the surfaces are, and what lies opposite.
+    pub(in crate::contact) geometry: Geometry,
+    /// Room to assemble what acts in space.
+    pub(in crate::contact) spatial: Assembler,
+}
+
+/// Where the surfaces of an interface are, and what lies opposite.
+#[derive(Debug, Default)]
+pub(in crate::contact) struct Geometry {
+    /// Coordinates at the last evaluation, and at the accepted state that it started from.
+    pub x: Vec<Vec3>,
+    pub before: Vec<Vec3>,
+    /// The frames of bodies that turn at the last evaluation.
+    pub in_space: InSpace,
+    /// Where the facets lie, and which way they look.
+    pub bounds: Vec<Bounds>,
     /// Pairs of the reference configuration, for small sliding.
-    pub(in crate::contact) frozen: Vec<Option<(usize, FacetPoint)>>,
-    pub(in crate::contact) search: Search,
-    pub(in crate::contact) faces: FaceSearch,
-    /// Nodes of the faces of a mortar without a multiplier, and the coordinates for which they were found.
-    pub(in crate::contact) merged: Vec<Merged>,
-    pub(in crate::contact) merged_at: Vec<Vec3>,
+    pub frozen: Vec<Option<(usize, FacetPoint)>>,
+    pub search: Search,
+    pub faces: FaceSearch,
+    /// Nodes of the faces of a mortar without a multiplier.
+    pub merged: MergedNodes,
     /// Integrals over the faces of a mortar.
-    pub(in crate::contact) integrals: Vec<FaceIntegral>,
+    pub integrals: Vec<FaceIntegral>,
+}
+
+/// Nodes of faces without a multiplier, by face, and the coordinates for which they were found.
+#[derive(Debug, Default)]
+pub(in crate::contact) struct MergedNodes {
+    pub nodes: Vec<Merged>,
+    pub at: Vec<Vec3>,
+}
+
+impl Cache {
+    /// Lets what was evaluated last be the iterate; what that was before is kept as what was evaluated last.
+    pub(super) fn take_trial(&mut self) {
+        std::mem::swap(&mut self.last, &mut self.trial);
+    }
 }
 
 impl Clone for Cache {

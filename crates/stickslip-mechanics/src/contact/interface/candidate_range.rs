@@ -31,106 +31,114 @@ const MARGIN: f64 = 2.0;
 /// Part of the reach within which contact is expected to stay.
 const INNER: f64 = 0.5;
 
-impl Interface {
-    /// Lets only those points take part that are within reach at displacements `u`, and marks their nodes and those they may meet among all
-    /// points of the mesh. What is marked already, and what has been in contact, takes part in any case.
-    pub fn restrict_to_candidates(&mut self, u: &[f64], range: CandidateRange, kept: &mut [bool]) {
-        self.ready();
-        let x = self.coordinates(u);
-        let distances = self.distances(&x, range);
-        let length = |nodes: &[usize]| distance(x[nodes[0]], x[nodes[1]]);
-        let facets = self.facets().iter().map(|f| length(&f.nodes));
-        let size = facets.fold(0.0, f64::max);
-        let near = self.facets_near(&x, &distances, range, size);
-        let own = self.points.iter().map(|p| p.size).fold(0.0, f64::max);
-        let limit = range.distance + MARGIN * size.max(own);
-        let mut excluded = Vec::with_capacity(distances.len());
-        let mut inner = Vec::with_capacity(distances.len());
-        for (i, (point, &d)) in self.points.iter().zip(&distances).enumerate() {
-            let known = point.nodes.iter().all(|&n| kept[self.nodes[n]]);
-            let included = d <= limit || known || self.history.points[i].status != Status::Open;
-            excluded.push(!included);
-            inner.push(d <= INNER * limit || known);
-            if included {
-                self.mark(i, near.get(i), kept);
+/// Lets only those points take part that are within reach at displacements `u`, and marks their nodes and those they may meet among all
+/// points of the mesh. What is marked already, and what has been in contact, takes part in any case.
+pub fn restrict_to_candidates(
+    interface: &mut Interface,
+    u: &[f64],
+    range: CandidateRange,
+    kept: &mut [bool],
+) {
+    interface.ready();
+    let x = interface.coordinates(u);
+    let distances = distances(interface.view(), &x, range);
+    let length = |nodes: &[usize]| distance(x[nodes[0]], x[nodes[1]]);
+    let facets = interface.facets().iter().map(|f| length(&f.nodes));
+    let size = facets.fold(0.0, f64::max);
+    let near = facets_near(&interface.definition, &x, &distances, range, size);
+    let own = interface.points.iter().map(|p| p.size).fold(0.0, f64::max);
+    let limit = range.distance + MARGIN * size.max(own);
+    let mut excluded = Vec::with_capacity(distances.len());
+    let mut inner = Vec::with_capacity(distances.len());
+    for (i, (point, &d)) in interface.points.iter().zip(&distances).enumerate() {
+        let known = point.nodes.iter().all(|&n| kept[interface.nodes[n]]);
+        let included = d <= limit || known || interface.state.points[i].status != Status::Open;
+        excluded.push(!included);
+        inner.push(d <= INNER * limit || known);
+        if included {
+            mark(interface.view(), i, near.get(i), kept);
+        }
+    }
+    if excluded.iter().all(|excluded| !excluded) {
+        excluded.clear();
+    }
+    interface.conditions.excluded = excluded;
+    interface.conditions.inner = inner;
+}
+
+/// Facets that points may meet which are within reach of the primary, by point; nothing of an obstacle.
+fn facets_near(
+    interface: &InterfaceDefinition,
+    x: &[Vec3],
+    distances: &[f64],
+    range: CandidateRange,
+    size: f64,
+) -> Vec<Vec<usize>> {
+    let Primary::Facets(facets) = &interface.primary else {
+        return Vec::new();
+    };
+    let tree = Tree::build(facets.iter().map(|f| f.nodes.iter().map(|&n| x[n])));
+    let faces = interface.mortar.iter().flat_map(|m| &m.faces);
+    let own = faces.map(|f| distance(x[f.nodes[0]], x[f.nodes[1]]));
+    let margin = range.along + size + own.fold(0.0, f64::max);
+    (interface.points.iter().zip(distances))
+        .map(|(point, &d)| {
+            let mut near = Vec::new();
+            if d <= range.distance + MARGIN * size {
+                tree.near(point.position(x), margin, &mut near);
             }
-        }
-        if excluded.iter().all(|excluded| !excluded) {
-            excluded.clear();
-        }
-        self.directives.excluded = excluded;
-        self.directives.inner = inner;
-    }
+            near
+        })
+        .collect()
+}
 
-    /// Facets that points may meet which are within reach of the primary, by point; nothing of an obstacle.
-    fn facets_near(
-        &self,
-        x: &[Vec3],
-        distances: &[f64],
-        range: CandidateRange,
-        size: f64,
-    ) -> Vec<Vec<usize>> {
-        let Primary::Facets(facets) = &self.primary else {
-            return Vec::new();
-        };
-        let tree = Tree::build(facets.iter().map(|f| f.nodes.iter().map(|&n| x[n])));
-        let faces = self.mortar.iter().flat_map(|m| &m.faces);
-        let own = faces.map(|f| distance(x[f.nodes[0]], x[f.nodes[1]]));
-        let margin = range.along + size + own.fold(0.0, f64::max);
-        (self.points.iter().zip(distances))
-            .map(|(point, &d)| {
-                let mut near = Vec::new();
-                if d <= range.distance + MARGIN * size {
-                    tree.near(point.position(x), margin, &mut near);
-                }
-                near
-            })
-            .collect()
-    }
-
-    /// Marks the nodes of a point, and those of the facets that it may meet or met.
-    fn mark(&self, i: usize, near: Option<&Vec<usize>>, kept: &mut [bool]) {
-        let mut keep = |nodes: &[usize]| nodes.iter().for_each(|&n| kept[self.nodes[n]] = true);
-        keep(&self.points[i].nodes);
-        if let Some(mortar) = &self.mortar {
-            for &(f, _) in &mortar.around[i] {
-                keep(&mortar.faces[f].nodes);
-            }
-        }
-        if let (Primary::Facets(facets), Some(near)) = (&self.primary, near) {
-            for &f in near.iter().chain(&self.history.points[i].facet) {
-                keep(&facets[f].nodes);
-            }
+/// Marks the nodes of a point, and those of the facets that it may meet or met.
+fn mark(interface: ContactView, i: usize, near: Option<&Vec<usize>>, kept: &mut [bool]) {
+    let mut keep = |nodes: &[usize]| nodes.iter().for_each(|&n| kept[interface.nodes[n]] = true);
+    keep(&interface.points[i].nodes);
+    if let Some(mortar) = &interface.mortar {
+        for &(f, _) in &mortar.around[i] {
+            keep(&mortar.faces[f].nodes);
         }
     }
-
-    /// Lets all points take part and marks all nodes.
-    pub fn include_all(&mut self, kept: &mut [bool]) {
-        self.directives.excluded.clear();
-        self.directives.inner.clear();
-        for &node in &self.nodes {
-            kept[node] = true;
+    if let (Primary::Facets(facets), Some(near)) = (&interface.primary, near) {
+        for &f in near.iter().chain(&interface.state.points[i].facet) {
+            keep(&facets[f].nodes);
         }
     }
+}
 
-    /// Whether contact has come so near to points that do not take part that they should.
-    pub fn spreads(&self) -> bool {
-        if self.directives.excluded.is_empty() {
-            return false;
-        }
-        let points = self.cache.last.points.iter().zip(&self.directives.inner);
-        points
-            .into_iter()
-            .any(|(e, &inner)| !inner && e.response.status != Status::Open)
+/// Lets all points take part and marks all nodes.
+pub fn include_all(interface: &mut Interface, kept: &mut [bool]) {
+    interface.conditions.excluded.clear();
+    interface.conditions.inner.clear();
+    for &node in &interface.nodes {
+        kept[node] = true;
     }
+}
 
-    /// Distances from the primary, whatever side of it.
-    fn distances(&self, x: &[Vec3], range: CandidateRange) -> Vec<f64> {
-        gaps(self.view(), x, range)
-            .into_iter()
-            .map(|g| g.max(0.0))
-            .collect()
+/// Whether contact has come so near to points that do not take part that they should.
+pub fn spreads(interface: &Interface) -> bool {
+    if interface.conditions.excluded.is_empty() {
+        return false;
     }
+    let points = interface
+        .cache
+        .last
+        .points
+        .iter()
+        .zip(&interface.conditions.inner);
+    points
+        .into_iter()
+        .any(|(e, &inner)| !inner && e.response.status != Status::Open)
+}
+
+/// Distances from the primary, whatever side of it.
+fn distances(interface: ContactView, x: &[Vec3], range: CandidateRange) -> Vec<f64> {
+    gaps(interface, x, range)
+        .into_iter()
+        .map(|g| g.max(0.0))
+        .collect()
 }
 
 /// The smallest gaps over the span; infinite where a point does not face the primary.

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::cache::Cache;
+use super::cache::Geometry;
 use super::definition::{InterfaceDefinition, Primary};
 use super::evaluation::CHUNK;
 use super::search::Search;
@@ -110,12 +110,12 @@ pub(in crate::contact) fn closest_of_all(
 }
 
 /// Pairs in the reference configuration, for small sliding.
-pub(super) fn pair_reference(definition: &InterfaceDefinition, cache: &mut Cache) {
+pub(super) fn pair_reference(definition: &InterfaceDefinition, geometry: &mut Geometry) {
     let needed = definition.mortar.is_none() && definition.kinematics.as_dyn().frozen();
-    if !needed || !cache.frozen.is_empty() {
+    if !needed || !geometry.frozen.is_empty() {
         return;
     }
-    update_candidates(definition, &mut cache.search, &definition.reference);
-    let pairs = closest_of_all(definition, &definition.reference, &cache.search);
-    cache.frozen = pairs.into_iter().map(Result::ok).collect();
+    update_candidates(definition, &mut geometry.search, &definition.reference);
+    let pairs = closest_of_all(definition, &definition.reference, &geometry.search);
+    geometry.frozen = pairs.into_iter().map(Result::ok).collect();
 }

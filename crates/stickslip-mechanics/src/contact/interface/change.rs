@@ -19,18 +19,16 @@ pub struct Change {
     pub friction: Option<FrictionModel>,
 }
 
-impl Interface {
-    /// Takes other laws, between two increments, in place of those of the problem or the program. The energy `[J]` by which the law now stores more is returned.
-    pub fn change(&mut self, change: &Change) -> f64 {
-        let before = stored_energy(self.view());
-        if let Some(normal) = &change.normal {
-            self.definition.laws.normal = normal.clone();
-            self.definition.laws.user.normal = None;
-        }
-        if let Some(friction) = &change.friction {
-            self.definition.laws.friction = friction.clone();
-            self.definition.laws.user.friction = None;
-        }
-        stored_energy(self.view()) - before
+/// Takes other laws, between two increments, in place of those of the problem or the program. The energy `[J]` by which the law now stores more is returned.
+pub fn change(interface: &mut Interface, change: &Change) -> f64 {
+    let before = stored_energy(interface.view());
+    if let Some(normal) = &change.normal {
+        interface.definition.laws.normal = normal.clone();
+        interface.definition.laws.user.normal = None;
     }
+    if let Some(friction) = &change.friction {
+        interface.definition.laws.friction = friction.clone();
+        interface.definition.laws.user.friction = None;
+    }
+    stored_energy(interface.view()) - before
 }

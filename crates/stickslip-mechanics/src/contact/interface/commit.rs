@@ -1,13 +1,18 @@
 //! What an accepted increment leaves behind: histories, and the energies that went through the interface on the way.
 
+use super::belt::belt_path;
 use super::cone::judge_friction;
-use super::definition::Primary;
+use super::definition::{InterfaceDefinition, Primary};
 use super::energies::stored_energy;
-use super::evaluation::Evaluation;
+use super::evaluation::{Evaluation, Evaluations};
 use super::history::PointHistory;
+use super::input::InterfaceInput;
+use super::on_ground::wear_ground;
 use super::parts::Interface;
+use super::pass::evaluate_all;
 use super::scene::Wants;
-use super::worn::{path, rubbed};
+use super::sides::{leave_traces, opposite};
+use super::worn::{hollow_out, path, rubbed, wears_off};
 use crate::contact::enforcement::Multipliers;
 use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
@@ -43,352 +48,363 @@ struct Increment {
     creeps: bool,
 }
 
-impl Interface {
-    /// Committed history := trial, and what that adds to the energies.
-    pub(super) fn accept(&mut self, stage: &Stage) {
-        let active = self.schedule.active(stage.at.t);
-        self.history.cone = judge_friction(self, stage);
-        self.history.nodal = self.nodal_forces(active);
-        self.trust_multipliers();
-        self.push(stage);
-        self.note_opposite();
-        self.history.acting = active && !self.cache.last.points.is_empty();
-        if !self.history.acting {
-            self.rest_history();
-            return;
-        }
-        let increment = Increment {
-            resolved: stage.rate.is_none() && !self.history.springs,
-            belt: self.belt_path(stage),
-            times: [stage.from.t, stage.at.t],
-            dt: stage.dt,
-            creeps: self.laws.friction_law().frictional() && !self.laws.slip.as_dyn().sticks(),
-        };
-        let gaps = match increment.resolved {
-            true => self.gaps_before(stage),
-            false => Vec::new(),
-        };
-        let mut traces = vec![0.0; self.history.points.len()];
-        let mut volumes = traces.clone();
-        self.history.creep = 0.0;
-        let (mut dissipated, mut work) = (0.0, 0.0);
-        for (i, trace) in traces.iter_mut().enumerate() {
-            let passed = self.take_over(i, gaps.get(i).copied(), &increment);
-            let area = passed.history.area;
-            *trace = passed.dissipated;
-            volumes[i] = passed.worn[1] * area;
-            dissipated += passed.dissipated * area;
-            work += passed.work * area;
-        }
-        self.history.start.overlap.clear();
-        self.history.energy.dissipated += dissipated;
-        self.leave_traces(&traces);
-        self.hollow_out(&volumes);
-        self.wear_ground(&volumes, stage);
-        let stored = stored_energy(self.view());
-        let before = std::mem::replace(&mut self.history.energy.stored, stored);
-        if increment.resolved {
-            // Along its path contact gave what it no longer stores, and took what friction has turned into heat.
-            self.history.energy.path += work - (before - stored - dissipated);
+/// Committed history := trial, and what that adds to the energies.
+pub(super) fn accept(interface: &mut Interface, stage: &Stage) {
+    let active = interface.schedule.active(stage.at.t);
+    interface.state.cone = judge_friction(interface, stage);
+    interface.state.nodal = nodal_forces(&interface.definition, &interface.cache.last, active);
+    trust_multipliers(interface);
+    push(interface, stage);
+    interface.state.opposite = opposite(&interface.definition, &interface.cache.last);
+    interface.state.acting = active && !interface.cache.last.points.is_empty();
+    if !interface.state.acting {
+        rest_history(interface);
+        return;
+    }
+    let increment = Increment {
+        resolved: stage.rate.is_none() && !interface.state.springs,
+        belt: belt_path(interface.input(), stage),
+        times: [stage.from.t, stage.at.t],
+        dt: stage.dt,
+        creeps: interface.laws.friction_law().frictional()
+            && !interface.laws.slip.as_dyn().sticks(),
+    };
+    let gaps = match increment.resolved {
+        true => gaps_before(interface, stage),
+        false => Vec::new(),
+    };
+    let mut traces = vec![0.0; interface.state.points.len()];
+    let mut volumes = traces.clone();
+    interface.state.creep = 0.0;
+    let (mut dissipated, mut work) = (0.0, 0.0);
+    for (i, trace) in traces.iter_mut().enumerate() {
+        let passed = take_over(interface, i, gaps.get(i).copied(), &increment);
+        let area = passed.history.area;
+        *trace = passed.dissipated;
+        volumes[i] = passed.worn[1] * area;
+        dissipated += passed.dissipated * area;
+        work += passed.work * area;
+    }
+    interface.state.start.overlap.clear();
+    interface.state.energy.dissipated += dissipated;
+    leave_traces(interface, &traces);
+    hollow_out(interface, &volumes);
+    wear_ground(interface, &volumes, stage);
+    let stored = stored_energy(interface.view());
+    let before = interface.state.energy.stored;
+    interface.state.energy.stored = stored;
+    if increment.resolved {
+        // Along its path contact gave what it no longer stores, and took what friction has turned into heat.
+        interface.state.energy.path += work - (before - stored - dissipated);
+    }
+}
+
+/// Takes multipliers for the tractions where what the laws answer is not quite the same: because they are so steep that it is rounding to some digits, or
+/// because the forces in play, by which the balance is judged, are larger by far. Multipliers are what acts on the bodies.
+fn trust_multipliers(interface: &mut Interface) {
+    let points = &mut interface.cache.last.points;
+    let size = |t: &[f64; 3]| t.iter().fold(0.0, |m: f64, t| m.max(t.abs()));
+    let forces = points.iter().map(|e| size(&e.multiplier) * e.area);
+    let largest = forces.fold(0.0, f64::max);
+    for e in points {
+        let open = e.response.status == Status::Open;
+        let off = e.saddle.map_or(0.0, |(rest, _)| size(&rest) * e.area);
+        if !open && off > SAME * largest {
+            e.response.traction = e.multiplier;
         }
     }
+}
 
-    /// Takes multipliers for the tractions where what the laws answer is not quite the same: because they are so steep that it is rounding to some digits, or
-    /// because the forces in play, by which the balance is judged, are larger by far. Multipliers are what acts on the bodies.
-    fn trust_multipliers(&mut self) {
-        let points = &mut self.cache.last.points;
-        let size = |t: &[f64; 3]| t.iter().fold(0.0, |m: f64, t| m.max(t.abs()));
-        let forces = points.iter().map(|e| size(&e.multiplier) * e.area);
-        let largest = forces.fold(0.0, f64::max);
-        for e in points {
-            let open = e.response.status == Status::Open;
-            let off = e.saddle.map_or(0.0, |(rest, _)| size(&rest) * e.area);
-            if !open && off > SAME * largest {
-                e.response.traction = e.multiplier;
+/// Nothing acts: only what adds up is kept.
+fn rest_history(interface: &mut Interface) {
+    for h in &mut interface.state.points {
+        *h = PointHistory {
+            slip: h.slip,
+            dissipated: h.dissipated,
+            worn: h.worn,
+            hollow: h.hollow,
+            path: h.path,
+            spent: h.spent,
+            ..PointHistory::default()
+        };
+    }
+    interface.state.energy.stored = 0.0;
+}
+
+/// Enters a point into the history, and what it did into the energies. `gap`: at the start, where that is not the committed one.
+fn take_over(
+    interface: &mut Interface,
+    i: usize,
+    gap: Option<f64>,
+    increment: &Increment,
+) -> Passed {
+    let input = interface.input();
+    let (e, h) = (&interface.cache.last.points[i], &input.state.points[i]);
+    let passed = pass(
+        input,
+        (i, h),
+        e,
+        gap.unwrap_or(h.gap),
+        (increment.resolved, increment.dt),
+    );
+    let (area, r) = (e.area, &e.response);
+    let shear = passed.history.shear;
+    let sheared = match input.conditions.impulses {
+        true => shear,
+        false => scale(0.5, add(h.shear, shear)),
+    };
+    let mut belt_work = dot(sheared, increment.belt) * area;
+    // Overlap that is resolved drives the surfaces apart.
+    let [before, now] = increment.times.map(|t| input.offset_at_start(i, t));
+    // So does what is worn off, the other way: the bodies come together as it goes.
+    let [before, now] = [before - h.hollow, now - passed.history.hollow];
+    belt_work += 0.5 * (h.pressure + r.traction[0]) * (now - before) * area;
+    belt_work += pressed_out(input, i, e) * area;
+    let mut damped = 0.0;
+    if r.damping != 0.0 || h.damping != 0.0 {
+        let closed = if h.normal == [0.0; 3] {
+            0.0
+        } else {
+            h.gap - e.gap
+        };
+        damped = (0.5 * (h.damping + r.damping) * closed * area).max(0.0);
+    }
+    let creep = match increment.creeps && r.status == Status::Stick {
+        // Not what the spring gives.
+        true if input.state.springs => e.path(true) / increment.dt,
+        true => norm(e.moved) / increment.dt,
+        false => 0.0,
+    };
+    let history = &mut interface.state;
+    history.energy.uncertain += passed.uncertain * area;
+    history.energy.excess += passed.excess * area;
+    for (total, depth) in history.worn.iter_mut().zip(passed.worn) {
+        *total += depth * area;
+    }
+    history.energy.work += belt_work;
+    history.energy.damped += damped;
+    history.creep = history.creep.max(creep);
+    history.points[i] = passed.history;
+    passed
+}
+
+/// Work per area that multipliers did on the bodies as they pressed out what overlapped when the motion began. A point without mass is taken from
+/// one equilibrium to the other, in however short an increment, and one that contact acts on by impulses is stopped there. What else has mass is thrown
+/// off the faster, the shorter the increment is: that is no work of the overlap.
+fn pressed_out(interface: InterfaceInput, i: usize, e: &Evaluation) -> f64 {
+    let Some(&gap) = interface.state.start.overlap.get(i) else {
+        return 0.0;
+    };
+    let light = interface.conditions.inertia.get(i) == Some(&0.0);
+    let part = match (interface.conditions.impulses, light) {
+        (true, _) => 1.0,
+        (false, true) => 0.5,
+        (false, false) => return 0.0,
+    };
+    match gap < 0.0 && e.gap.is_finite() {
+        true => part * e.response.traction[0] * (e.gap - gap),
+        false => 0.0,
+    }
+}
+
+/// A point over an increment. `gap`: at its start.
+fn pass(
+    interface: InterfaceInput,
+    (i, h): (usize, &PointHistory),
+    e: &Evaluation,
+    gap: f64,
+    (resolved, dt): (bool, f64),
+) -> Passed {
+    let r = &e.response;
+    let frictional = interface.laws.friction_law().frictional();
+    let shear = e.along(&e.frames.now);
+    // At the edge of a mortar a point stands for less and less: forces at the start are those on the area then.
+    let part = match resolved && h.area > 0.0 && e.area > 0.0 {
+        true => h.area / e.area,
+        false => 1.0,
+    };
+    let limit = match frictional {
+        true => r.limit,
+        false => 0.0,
+    };
+    let [dissipated, uncertain, excess] = dissipated(interface, h, e, part, resolved);
+    let path = rubbed(interface.definition, r, e.frames.before, e.moved);
+    let pressed = (0.5 * (h.pressure + r.traction[0]) * path).max(0.0);
+    let worn = wears_off(interface, h, e, (pressed, dissipated), dt);
+    let whole = interface.points[i].area * interface.share;
+    let covered = if whole > 0.0 { e.area / whole } else { 0.0 };
+    // Slip so far goes along with the surface, as tractions do.
+    let dim = interface.dofs.dim;
+    let so_far = e.forward(h.slip, h.normal, dim);
+    let slid = match r.status {
+        Status::Open => [0.0; 3],
+        _ => e.forward(e.moved, e.frames.normal_before, dim),
+    };
+    // The shear of both ends in the directions at the start.
+    let [a, b] = e.carried.map(|t| part * t);
+    let [e1, e2] = e.frames.before;
+    let both = add(add_scaled(scale(a, e1), b, e2), e.along(&e.frames.before));
+    // Without damping, which is no part of what is stored.
+    let pressures = part * (h.pressure - h.damping) + (r.traction[0] - r.damping);
+    let opened = match gap.is_finite() && e.gap.is_finite() {
+        true => e.gap - gap,
+        false => 0.0,
+    };
+    Passed {
+        dissipated,
+        uncertain,
+        excess,
+        worn,
+        work: 0.5 * (pressures * opened + dot(both, e.moved)),
+        history: PointHistory {
+            pressure: r.traction[0],
+            shear,
+            slip: add(so_far, slid),
+            moved: norm(e.moved),
+            gap: e.gap,
+            normal: e.frames.normal,
+            status: r.status,
+            facet: e.facet,
+            area: e.area,
+            damping: r.damping,
+            dissipated: h.dissipated + dissipated,
+            worn: h.worn + worn[0] * covered,
+            hollow: e.hollow,
+            path: h.path + interface.conditions.cycles() * path,
+            spent: h.spent + interface.conditions.cycles() * dissipated,
+            limit,
+            sheared: sheared(interface, shear, e.tangential_stiffness),
+            stiffness: [e.normal_stiffness, e.tangential_stiffness],
+        },
+    }
+}
+
+/// Elastic energy per area of the spring by which a point sticks; multipliers that are updated leave nothing in it.
+pub(super) fn sheared(interface: InterfaceInput, shear: Vec3, stiffness: f64) -> f64 {
+    let updated = matches!(
+        interface.laws.enforcement.as_dyn().multipliers(),
+        Multipliers::Augmented { .. }
+    );
+    let springs = match interface.state.springs {
+        true if interface.holds_exactly() => false,
+        true => interface.laws.tied || interface.laws.friction_law().frictional(),
+        false => interface.laws.needs_tangential_stiffness() && !updated,
+    };
+    match springs && stiffness.is_finite() && stiffness > 0.0 {
+        true => 0.5 * dot(shear, shear) / stiffness,
+        false => 0.0,
+    }
+}
+
+/// Energy per area that friction has dissipated over an increment, by how much that may be off, and by how much it exceeds the trapezoidal rule in
+/// motion.
+///
+/// In motion by the trapezoidal rule, like the work of the loads. A quasi-static increment may be as long as one likes, and shear may turn
+/// round in it, or rise to the limit and stay there. Then the point slides along its shear traction all the time that it slides,
+/// at the limit: `∫ limit |ds|`. The limit is taken as growing in proportion to the way, from its value at the start where the
+/// point slid already, and from half-way where it stuck, as nobody knows when it began to slide.
+fn dissipated(
+    interface: InterfaceInput,
+    h: &PointHistory,
+    e: &Evaluation,
+    part: f64,
+    resolved: bool,
+) -> [f64; 3] {
+    let r = &e.response;
+    // What a spring held is lost where the surfaces part.
+    let released = match r.status {
+        Status::Open => part * h.sheared,
+        _ => 0.0,
+    };
+    let along = |t: [f64; 2]| -(t[0] * r.sliding_path[0] + t[1] * r.sliding_path[1]);
+    let now = along([r.traction[1], r.traction[2]]);
+    let mean = match interface.conditions.impulses {
+        true => now,
+        false => 0.5 * (along(e.carried) + now),
+    };
+    if resolved && r.status == Status::Open {
+        // It may have slid before the surfaces parted.
+        return [released, 0.5 * part * h.limit * norm(e.moved), 0.0];
+    }
+    let slides = resolved && r.status == Status::Slip && r.limit > 0.0;
+    if !slides || !interface.laws.slip.as_dyn().sticks() {
+        // Friction gives nothing back: where the slip turns round, the scheme took less than it enters.
+        let excess = if resolved { 0.0 } else { (-mean).max(0.0) };
+        return [mean.max(0.0) + released, 0.0, excess];
+    }
+    let start = part * h.limit / r.limit;
+    let (onset, unknown) = match h.status {
+        Status::Slip => (start, 0.0),
+        Status::Stick => (0.5 * (1.0 + start), 0.25 * (1.0 - start).abs()),
+        // It may have slid before it touched.
+        Status::Open => (0.0, 0.5),
+    };
+    let now = now.max(0.0);
+    [0.5 * (1.0 + onset) * now + released, unknown * now, 0.0]
+}
+
+/// Gaps of all points at the start of an increment. Where that is not known, as nothing was opposite or nothing had been accepted yet, they are
+/// looked up.
+fn gaps_before(interface: &mut Interface, stage: &Stage) -> Vec<f64> {
+    let committed = &interface.state.points;
+    let points = interface.cache.last.points.iter().zip(committed);
+    let unknown = |(e, h): (&Evaluation, &PointHistory)| {
+        h.normal == [0.0; 3] && e.response.traction != [0.0; 3]
+    };
+    if !points.into_iter().any(unknown) {
+        return committed.iter().map(|h| h.gap).collect();
+    }
+    let start = Stage {
+        from: stage.from,
+        at: stage.from,
+        ..*stage
+    };
+    let (input, cache) = interface.parts();
+    let evaluations = evaluate_all(input, cache, &start, Wants::default());
+    let known = input.state.points.iter().zip(&evaluations.points);
+    let gaps = known.map(|(h, e)| match h.normal == [0.0; 3] {
+        true => e.known_gap(),
+        false => h.gap,
+    });
+    gaps.collect()
+}
+
+/// Forces on the nodes in the last evaluation: those that the bodies resist, gradients of gap and slip and all. Pressure and shear times the
+/// weights of the nodes have the same sum, but where the gradient of a gap or slip turns from node to node they are other forces.
+fn nodal_forces(interface: &InterfaceDefinition, last: &Evaluations, active: bool) -> Vec<Vec3> {
+    let mut forces = vec![[0.0; 3]; interface.nodes.len()];
+    for (i, e) in last.points.iter().enumerate().filter(|_| active) {
+        let batch = last.batch(i);
+        let Some(force) = batch.force(e) else {
+            continue;
+        };
+        // Residuals are internal less external forces.
+        for (&(node, _), part) in batch.sides(e).iter().zip(force.chunks(interface.dofs.dim)) {
+            for (total, f) in forces[node].iter_mut().zip(part) {
+                *total -= f;
             }
         }
     }
+    forces
+}
 
-    /// Nothing acts: only what adds up is kept.
-    fn rest_history(&mut self) {
-        for h in &mut self.history.points {
-            *h = PointHistory {
-                slip: h.slip,
-                dissipated: h.dissipated,
-                worn: h.worn,
-                hollow: h.hollow,
-                path: h.path,
-                spent: h.spent,
-                ..PointHistory::default()
-            };
-        }
-        self.history.energy.stored = 0.0;
+/// Enters the work of a moving obstacle: force times shift and moment times angle, by the trapezoidal rule.
+fn push(interface: &mut Interface, stage: &Stage) {
+    let Primary::Rigid(_, motion) = &interface.primary else {
+        return;
+    };
+    let [shift, turn] = motion.way(stage.from.t, stage.at.t);
+    let centre = motion.pose(stage.at.t).centre();
+    let x = interface.coordinates(&stage.at.u);
+    let mut now = [[0.0; 3]; 2];
+    for (&force, &x) in interface.state.nodal.iter().zip(&x) {
+        now[0] = add(now[0], force);
+        now[1] = add(now[1], cross(sub(x, centre), force));
     }
-
-    /// Enters a point into the history, and what it did into the energies. `gap`: at the start, where that is not the committed one.
-    fn take_over(&mut self, i: usize, gap: Option<f64>, increment: &Increment) -> Passed {
-        let (e, h) = (&self.cache.last.points[i], &self.history.points[i]);
-        let passed = self.pass(
-            (i, h),
-            e,
-            gap.unwrap_or(h.gap),
-            (increment.resolved, increment.dt),
-        );
-        let (area, r) = (e.area, &e.response);
-        let shear = passed.history.shear;
-        let sheared = match self.directives.impulses {
-            true => shear,
-            false => scale(0.5, add(h.shear, shear)),
-        };
-        let mut belt_work = dot(sheared, increment.belt) * area;
-        // Overlap that is resolved drives the surfaces apart.
-        let [before, now] = increment.times.map(|t| self.view().offset_at_start(i, t));
-        // So does what is worn off, the other way: the bodies come together as it goes.
-        let [before, now] = [before - h.hollow, now - passed.history.hollow];
-        belt_work += 0.5 * (h.pressure + r.traction[0]) * (now - before) * area;
-        belt_work += self.pressed_out(i, e) * area;
-        let mut damped = 0.0;
-        if r.damping != 0.0 || h.damping != 0.0 {
-            let closed = if h.normal == [0.0; 3] {
-                0.0
-            } else {
-                h.gap - e.gap
-            };
-            damped = (0.5 * (h.damping + r.damping) * closed * area).max(0.0);
-        }
-        let creep = match increment.creeps && r.status == Status::Stick {
-            // Not what the spring gives.
-            true if self.history.springs => e.path(true) / increment.dt,
-            true => norm(e.moved) / increment.dt,
-            false => 0.0,
-        };
-        let history = &mut self.history;
-        history.energy.uncertain += passed.uncertain * area;
-        history.energy.excess += passed.excess * area;
-        for (total, depth) in history.worn.iter_mut().zip(passed.worn) {
-            *total += depth * area;
-        }
-        history.energy.work += belt_work;
-        history.energy.damped += damped;
-        history.creep = history.creep.max(creep);
-        history.points[i] = passed.history;
-        passed
-    }
-
-    /// Work per area that multipliers did on the bodies as they pressed out what overlapped when the motion began. A point without mass is taken from
-    /// one equilibrium to the other, in however short an increment, and one that contact acts on by impulses is stopped there. What else has mass is thrown
-    /// off the faster, the shorter the increment is: that is no work of the overlap.
-    fn pressed_out(&self, i: usize, e: &Evaluation) -> f64 {
-        let Some(&gap) = self.history.start.overlap.get(i) else {
-            return 0.0;
-        };
-        let light = self.directives.inertia.get(i) == Some(&0.0);
-        let part = match (self.directives.impulses, light) {
-            (true, _) => 1.0,
-            (false, true) => 0.5,
-            (false, false) => return 0.0,
-        };
-        match gap < 0.0 && e.gap.is_finite() {
-            true => part * e.response.traction[0] * (e.gap - gap),
-            false => 0.0,
-        }
-    }
-
-    /// A point over an increment. `gap`: at its start.
-    fn pass(
-        &self,
-        (i, h): (usize, &PointHistory),
-        e: &Evaluation,
-        gap: f64,
-        (resolved, dt): (bool, f64),
-    ) -> Passed {
-        let r = &e.response;
-        let frictional = self.laws.friction_law().frictional();
-        let shear = e.along(&e.frames.now);
-        // At the edge of a mortar a point stands for less and less: forces at the start are those on the area then.
-        let part = match resolved && h.area > 0.0 && e.area > 0.0 {
-            true => h.area / e.area,
-            false => 1.0,
-        };
-        let limit = match frictional {
-            true => r.limit,
-            false => 0.0,
-        };
-        let [dissipated, uncertain, excess] = self.dissipated(h, e, part, resolved);
-        let path = rubbed(&self.definition, r, e.frames.before, e.moved);
-        let pressed = (0.5 * (h.pressure + r.traction[0]) * path).max(0.0);
-        let worn = self.wears_off(h, e, (pressed, dissipated), dt);
-        let whole = self.points[i].area * self.share;
-        let covered = if whole > 0.0 { e.area / whole } else { 0.0 };
-        // Slip so far goes along with the surface, as tractions do.
-        let dim = self.dofs.dim;
-        let so_far = e.forward(h.slip, h.normal, dim);
-        let slid = match r.status {
-            Status::Open => [0.0; 3],
-            _ => e.forward(e.moved, e.frames.normal_before, dim),
-        };
-        // The shear of both ends in the directions at the start.
-        let [a, b] = e.carried.map(|t| part * t);
-        let [e1, e2] = e.frames.before;
-        let both = add(add_scaled(scale(a, e1), b, e2), e.along(&e.frames.before));
-        // Without damping, which is no part of what is stored.
-        let pressures = part * (h.pressure - h.damping) + (r.traction[0] - r.damping);
-        let opened = match gap.is_finite() && e.gap.is_finite() {
-            true => e.gap - gap,
-            false => 0.0,
-        };
-        Passed {
-            dissipated,
-            uncertain,
-            excess,
-            worn,
-            work: 0.5 * (pressures * opened + dot(both, e.moved)),
-            history: PointHistory {
-                pressure: r.traction[0],
-                shear,
-                slip: add(so_far, slid),
-                moved: norm(e.moved),
-                gap: e.gap,
-                normal: e.frames.normal,
-                status: r.status,
-                facet: e.facet,
-                area: e.area,
-                damping: r.damping,
-                dissipated: h.dissipated + dissipated,
-                worn: h.worn + worn[0] * covered,
-                hollow: e.hollow,
-                path: h.path + self.cycles() * path,
-                spent: h.spent + self.cycles() * dissipated,
-                limit,
-                sheared: self.sheared(shear, e.tangential_stiffness),
-                stiffness: [e.normal_stiffness, e.tangential_stiffness],
-            },
-        }
-    }
-
-    /// Elastic energy per area of the spring by which a point sticks; multipliers that are updated leave nothing in it.
-    pub(super) fn sheared(&self, shear: Vec3, stiffness: f64) -> f64 {
-        let updated = matches!(
-            self.laws.enforcement.as_dyn().multipliers(),
-            Multipliers::Augmented { .. }
-        );
-        let springs = match self.history.springs {
-            true if self.view().holds_exactly() => false,
-            true => self.laws.tied || self.laws.friction_law().frictional(),
-            false => self.laws.needs_tangential_stiffness() && !updated,
-        };
-        match springs && stiffness.is_finite() && stiffness > 0.0 {
-            true => 0.5 * dot(shear, shear) / stiffness,
-            false => 0.0,
-        }
-    }
-
-    /// Energy per area that friction has dissipated over an increment, by how much that may be off, and by how much it exceeds the trapezoidal rule in
-    /// motion.
-    ///
-    /// In motion by the trapezoidal rule, like the work of the loads. A quasi-static increment may be as long as one likes, and shear may turn
-    /// round in it, or rise to the limit and stay there. Then the point slides along its shear traction all the time that it slides,
-    /// at the limit: `∫ limit |ds|`. The limit is taken as growing in proportion to the way, from its value at the start where the
-    /// point slid already, and from half-way where it stuck, as nobody knows when it began to slide.
-    fn dissipated(&self, h: &PointHistory, e: &Evaluation, part: f64, resolved: bool) -> [f64; 3] {
-        let r = &e.response;
-        // What a spring held is lost where the surfaces part.
-        let released = match r.status {
-            Status::Open => part * h.sheared,
-            _ => 0.0,
-        };
-        let along = |t: [f64; 2]| -(t[0] * r.sliding_path[0] + t[1] * r.sliding_path[1]);
-        let now = along([r.traction[1], r.traction[2]]);
-        let mean = match self.directives.impulses {
-            true => now,
-            false => 0.5 * (along(e.carried) + now),
-        };
-        if resolved && r.status == Status::Open {
-            // It may have slid before the surfaces parted.
-            return [released, 0.5 * part * h.limit * norm(e.moved), 0.0];
-        }
-        let slides = resolved && r.status == Status::Slip && r.limit > 0.0;
-        if !slides || !self.laws.slip.as_dyn().sticks() {
-            // Friction gives nothing back: where the slip turns round, the scheme took less than it enters.
-            let excess = if resolved { 0.0 } else { (-mean).max(0.0) };
-            return [mean.max(0.0) + released, 0.0, excess];
-        }
-        let start = part * h.limit / r.limit;
-        let (onset, unknown) = match h.status {
-            Status::Slip => (start, 0.0),
-            Status::Stick => (0.5 * (1.0 + start), 0.25 * (1.0 - start).abs()),
-            // It may have slid before it touched.
-            Status::Open => (0.0, 0.5),
-        };
-        let now = now.max(0.0);
-        [0.5 * (1.0 + onset) * now + released, unknown * now, 0.0]
-    }
-
-    /// Gaps of all points at the start of an increment. Where that is not known, as nothing was opposite or nothing had been accepted yet, they are
-    /// looked up.
-    fn gaps_before(&mut self, stage: &Stage) -> Vec<f64> {
-        let committed = &self.history.points;
-        let points = self.cache.last.points.iter().zip(committed);
-        let unknown = |(e, h): (&Evaluation, &PointHistory)| {
-            h.normal == [0.0; 3] && e.response.traction != [0.0; 3]
-        };
-        if !points.into_iter().any(unknown) {
-            return committed.iter().map(|h| h.gap).collect();
-        }
-        let start = Stage {
-            from: stage.from,
-            at: stage.from,
-            ..*stage
-        };
-        let evaluations = self.evaluate_all(&start, Wants::default());
-        let gap = |e: &Evaluation| if e.over { e.gap } else { f64::INFINITY };
-        let known = self.history.points.iter().zip(&evaluations.points);
-        let gaps = known.map(|(h, e)| match h.normal == [0.0; 3] {
-            true => gap(e),
-            false => h.gap,
-        });
-        let gaps = gaps.collect();
-        self.cache.trial = evaluations;
-        gaps
-    }
-
-    /// Forces on the nodes in the last evaluation: those that the bodies resist, gradients of gap and slip and all. Pressure and shear times the
-    /// weights of the nodes have the same sum, but where the gradient of a gap or slip turns from node to node they are other forces.
-    fn nodal_forces(&self, active: bool) -> Vec<Vec3> {
-        let mut forces = vec![[0.0; 3]; self.nodes.len()];
-        let last = &self.cache.last;
-        for (i, e) in last.points.iter().enumerate().filter(|_| active) {
-            let batch = last.batch(i);
-            let Some(force) = batch.force(e) else {
-                continue;
-            };
-            // Residuals are internal less external forces.
-            for (&(node, _), part) in batch.sides(e).iter().zip(force.chunks(self.dofs.dim)) {
-                for (total, f) in forces[node].iter_mut().zip(part) {
-                    *total -= f;
-                }
-            }
-        }
-        forces
-    }
-
-    /// Enters the work of a moving obstacle: force times shift and moment times angle, by the trapezoidal rule.
-    fn push(&mut self, stage: &Stage) {
-        let Primary::Rigid(_, motion) = &self.primary else {
-            return;
-        };
-        let [shift, turn] = motion.way(stage.from.t, stage.at.t);
-        let centre = motion.pose(stage.at.t).centre();
-        let x = self.coordinates(&stage.at.u);
-        let mut now = [[0.0; 3]; 2];
-        for (&force, &x) in self.history.nodal.iter().zip(&x) {
-            now[0] = add(now[0], force);
-            now[1] = add(now[1], cross(sub(x, centre), force));
-        }
-        let before = std::mem::replace(&mut self.history.pushed, now);
-        let mean = [0, 1].map(|k| scale(0.5, add(before[k], now[k])));
-        self.history.energy.work += dot(mean[0], shift) + dot(mean[1], turn);
-    }
+    let before = interface.state.pushed;
+    interface.state.pushed = now;
+    let mean = [0, 1].map(|k| scale(0.5, add(before[k], now[k])));
+    interface.state.energy.work += dot(mean[0], shift) + dot(mean[1], turn);
 }
 
 impl Evaluation {

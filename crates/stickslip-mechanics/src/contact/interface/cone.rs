@@ -1,10 +1,12 @@
 //! Whether points carry what the law of friction says, judged by the tractions that are reported and by how the points have moved: nothing here knows
 //! frames, trial tractions or slip rules.
 
+use super::belt::{belt_velocity, steady_velocity};
 use super::definition::Primary;
 use super::evaluation::Evaluation;
 use super::history::Cone;
 use super::parts::Interface;
+use super::sides::weights_of;
 use crate::contact::law::friction::FrictionPoint;
 use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, dot, norm, scale, sub};
@@ -29,7 +31,7 @@ pub(super) fn judge_friction(interface: &Interface, stage: &Stage) -> Cone {
         .last
         .points
         .iter()
-        .zip(&interface.history.points);
+        .zip(&interface.state.points);
     for (i, (e, before)) in points.enumerate() {
         let pressure = e.response.traction[0];
         if e.response.status == Status::Open || pressure <= 0.0 {
@@ -102,16 +104,19 @@ fn compliance(interface: &Interface, i: usize, e: &Evaluation) -> f64 {
 fn moved_over(interface: &Interface, i: usize, e: &Evaluation, stage: &Stage) -> (Vec3, f64) {
     let tangential = |v: Vec3| add_scaled(v, -dot(v, e.frames.normal), e.frames.normal);
     if e.steady {
-        let x = interface.points[i].position(&interface.cache.x);
-        let way = interface.steady_velocity(x, stage.at.t);
+        let x = interface.points[i].position(&interface.cache.geometry.x);
+        let way = steady_velocity(interface.input(), x, stage.at.t);
         return (tangential(scale(-stage.dt, way)), 0.0);
     }
     let dim = interface.dofs.dim;
     let (mut moved, mut own, mut apart) = ([0.0; 3], [0.0; 3], [0.0; 3]);
-    for (node, w) in interface.weights_of(i) {
-        apart = add_scaled(apart, w, interface.cache.before[node]);
+    for (node, w) in weights_of(interface, &interface.cache.last, i) {
+        apart = add_scaled(apart, w, interface.cache.geometry.before[node]);
         if interface.frames.of_point(interface.nodes[node]).is_some() {
-            let way = sub(interface.cache.x[node], interface.cache.before[node]);
+            let way = sub(
+                interface.cache.geometry.x[node],
+                interface.cache.geometry.before[node],
+            );
             own = add_scaled(own, w.max(0.0), way);
             for (c, way) in way.into_iter().enumerate().take(dim) {
                 let dof = interface.dofs.of(interface.nodes[node], c);
@@ -132,12 +137,16 @@ fn moved_over(interface: &Interface, i: usize, e: &Evaluation, stage: &Stage) ->
             };
         }
     }
-    moved = add_scaled(moved, -stage.dt, interface.belt_velocity(stage.at.t));
+    moved = add_scaled(
+        moved,
+        -stage.dt,
+        belt_velocity(interface.input(), stage.at.t),
+    );
     let mut unsure = dot(apart, e.frames.normal).abs();
     if let Primary::Rigid(_, motion) = &interface.primary {
         let t = stage.at.t;
         let [now, then] = [t, t - MOMENT * stage.dt].map(|t| motion.pose(t));
-        let x = interface.points[i].position(&interface.cache.x);
+        let x = interface.points[i].position(&interface.cache.geometry.x);
         let surface = sub(x, then.outward(now.inward(x)));
         moved = add_scaled(moved, -1.0 / MOMENT, surface);
         // The point has seen other velocities on its way.

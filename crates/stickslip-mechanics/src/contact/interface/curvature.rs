@@ -2,9 +2,11 @@
 
 use rayon::prelude::*;
 
+use super::cache::Cache;
 use super::definition::Primary;
 use super::evaluation::Evaluations;
-use super::parts::Interface;
+use super::input::InterfaceInput;
+use super::on_facet::curvature_of_point;
 use crate::contact::facet_point::{FACET_NODES, evaluate};
 use crate::contact::kinematics::{Convective, Kinematics, Pair};
 use crate::contact::mortar::{Face, FaceIntegral, Mortar, Piece};
@@ -180,93 +182,98 @@ impl Curvature<'_> {
     }
 }
 
-impl Interface {
-    /// Pressure and shear of a point at the node of a face; `None` if it carries nothing.
-    fn carried(&self, evaluations: &Evaluations, point: usize) -> Option<Carried> {
-        let e = evaluations.points.get(point)?;
-        let t = match self.view().unknown() {
-            true => e.multiplier,
-            false => e.response.traction,
-        };
-        (t != [0.0; 3]).then(|| {
-            let [first, second] = e.frames.now;
-            let along = first.map(|x| self.share * t[1] * x);
-            (
-                self.share * t[0],
-                add_scaled(along, self.share * t[2], second),
-            )
-        })
-    }
+/// Pressure and shear of a point at the node of a face; `None` if it carries nothing.
+fn carried(interface: InterfaceInput, evaluations: &Evaluations, point: usize) -> Option<Carried> {
+    let e = evaluations.points.get(point)?;
+    let t = match interface.unknown() {
+        true => e.multiplier,
+        false => e.response.traction,
+    };
+    (t != [0.0; 3]).then(|| {
+        let [first, second] = e.frames.now;
+        let along = first.map(|x| interface.share * t[1] * x);
+        (
+            interface.share * t[0],
+            add_scaled(along, interface.share * t[2], second),
+        )
+    })
+}
 
-    /// Adds the curvature of the gaps and slips over facets that carry something. A mortar adds none where surfaces keep the way they have turned.
-    pub(super) fn add_curvature(&self, evaluations: &Evaluations, out: &mut Assembler) {
-        let Primary::Facets(facets) = &self.primary else {
-            return;
+/// Adds the curvature of the gaps and slips over facets that carry something. A mortar adds none where surfaces keep the way they have turned.
+pub(super) fn add_curvature(interface: InterfaceInput, cache: &Cache, out: &mut Assembler) {
+    let Primary::Facets(facets) = &interface.primary else {
+        return;
+    };
+    if !out.wants_tangent || interface.kinematics.as_dyn().frozen() {
+        return;
+    }
+    let blocks = match &interface.mortar {
+        Some(_) if out.holds_turns => return,
+        Some(mortar) => curvature_of_faces(interface, mortar, facets, cache),
+        None => curvature_of_points(interface, facets, cache),
+    };
+    let mut zeros = Vec::new();
+    for block in blocks.iter().flatten() {
+        let n = block.dofs.len();
+        zeros.resize(zeros.len().max(n * n).max(3 * n), 0.0);
+        let wanted = if out.wants_surrogate { n * n } else { 0 };
+        let tangent = Tangent {
+            rows: &zeros[..3 * n],
+            change: &zeros[..3 * n],
+            area: 1.0,
+            hessian: &block.hessian,
+            surrogate: &zeros[..wanted],
         };
-        if !out.wants_tangent || self.kinematics.as_dyn().frozen() {
-            return;
-        }
-        let blocks = match &self.mortar {
-            Some(_) if out.holds_turns => return,
-            Some(mortar) => self.curvature_of_faces(mortar, facets, evaluations),
-            None => self.curvature_of_points(facets, evaluations),
-        };
-        let mut zeros = Vec::new();
-        for block in blocks.iter().flatten() {
-            let n = block.dofs.len();
-            zeros.resize(zeros.len().max(n * n).max(3 * n), 0.0);
-            let wanted = if out.wants_surrogate { n * n } else { 0 };
-            let tangent = Tangent {
-                rows: &zeros[..3 * n],
-                change: &zeros[..3 * n],
-                area: 1.0,
-                hessian: &block.hessian,
-                surrogate: &zeros[..wanted],
+        out.add_tangent(&block.dofs, tangent);
+    }
+}
+
+/// By chunks of points.
+fn curvature_of_points(
+    interface: InterfaceInput,
+    facets: &[Facet],
+    cache: &Cache,
+) -> Vec<Vec<Block>> {
+    let evaluations = &cache.last;
+    let points: Vec<usize> = (0..evaluations.points.len()).collect();
+    let block = |&i: &usize| {
+        let hessian = curvature_of_point(interface, i, facets, cache)?;
+        let dofs = evaluations.batch(i).dofs(&evaluations.points[i]).to_vec();
+        Some(Block { dofs, hessian })
+    };
+    let chunks = points.par_chunks(CHUNK);
+    chunks
+        .map(|points| points.iter().filter_map(block).collect())
+        .collect()
+}
+
+/// By chunks of faces: of the contact element of each piece at its middle, weighted by what the piece carries.
+fn curvature_of_faces(
+    interface: InterfaceInput,
+    mortar: &Mortar,
+    facets: &[Facet],
+    cache: &Cache,
+) -> Vec<Vec<Block>> {
+    let curvature = Curvature {
+        dim: interface.dofs.dim,
+        dofs: interface.dofs,
+        nodes: &interface.nodes,
+        x: &cache.geometry.x,
+        facets,
+    };
+    let faces = mortar.faces.par_chunks(CHUNK);
+    faces
+        .zip(cache.geometry.integrals.par_chunks(CHUNK))
+        .map(|(faces, integrals)| {
+            let mut room = Vec::new();
+            let block = |(face, integral): (&Face, &FaceIntegral)| {
+                let points = face.points.iter();
+                let own: Vec<_> = points
+                    .map(|&p| carried(interface, &cache.last, p))
+                    .collect();
+                curvature.block(face, integral, &own, &mut room)
             };
-            out.add_tangent(&block.dofs, tangent);
-        }
-    }
-
-    /// By chunks of points.
-    fn curvature_of_points(&self, facets: &[Facet], evaluations: &Evaluations) -> Vec<Vec<Block>> {
-        let points: Vec<usize> = (0..evaluations.points.len()).collect();
-        let block = |&i: &usize| {
-            let hessian = self.curvature_of_point(i, facets, evaluations)?;
-            let dofs = evaluations.batch(i).dofs(&evaluations.points[i]).to_vec();
-            Some(Block { dofs, hessian })
-        };
-        let chunks = points.par_chunks(CHUNK);
-        chunks
-            .map(|points| points.iter().filter_map(block).collect())
-            .collect()
-    }
-
-    /// By chunks of faces: of the contact element of each piece at its middle, weighted by what the piece carries.
-    fn curvature_of_faces(
-        &self,
-        mortar: &Mortar,
-        facets: &[Facet],
-        evaluations: &Evaluations,
-    ) -> Vec<Vec<Block>> {
-        let curvature = Curvature {
-            dim: self.dofs.dim,
-            dofs: self.dofs,
-            nodes: &self.nodes,
-            x: &self.cache.x,
-            facets,
-        };
-        let faces = mortar.faces.par_chunks(CHUNK);
-        faces
-            .zip(self.cache.integrals.par_chunks(CHUNK))
-            .map(|(faces, integrals)| {
-                let mut room = Vec::new();
-                let block = |(face, integral): (&Face, &FaceIntegral)| {
-                    let points = face.points.iter();
-                    let own: Vec<_> = points.map(|&p| self.carried(evaluations, p)).collect();
-                    curvature.block(face, integral, &own, &mut room)
-                };
-                faces.iter().zip(integrals).filter_map(block).collect()
-            })
-            .collect()
-    }
+            faces.iter().zip(integrals).filter_map(block).collect()
+        })
+        .collect()
 }

@@ -12,7 +12,7 @@ use crate::contact::response::Laws;
 use crate::contact::surface::{ContactPoint, Facet, Skin};
 use crate::contact::walls::Walls;
 use crate::math::{Vec3, add, distance, norm, sub};
-use crate::system::{BodyFrames, Dofs, FramePose, Schedule};
+use crate::system::{BodyFrames, Dofs, FramePose, Schedule, Stage};
 
 /// What the secondary touches.
 #[derive(Debug, Clone)]
@@ -88,17 +88,23 @@ impl InterfaceDefinition {
     /// Reference coordinates plus displacement of the nodes of the interface.
     pub(in crate::contact) fn coordinates(&self, u: &[f64]) -> Vec<Vec3> {
         let mut out = Vec::new();
-        self.coordinates_into(u, &mut out);
+        self.coordinates_into(&self.frames, u, &mut out);
         out
     }
 
-    pub(in crate::contact) fn coordinates_into(&self, u: &[f64], out: &mut Vec<Vec3>) {
+    /// The same of bodies that are seen in these frames.
+    pub(in crate::contact) fn coordinates_into(
+        &self,
+        frames: &BodyFrames,
+        u: &[f64],
+        out: &mut Vec<Vec3>,
+    ) {
         out.clear();
-        let poses = self.frame_poses(u);
+        let poses = self.poses_of(frames, u);
         let nodes = self.nodes.iter().zip(&self.reference);
         out.extend(nodes.map(|(&node, &x)| {
             let moved = self.dofs.vector(u, node);
-            match self.frames.of_point(node) {
+            match frames.of_point(node) {
                 Some(body) => poses[body].place(x, moved),
                 None => add(x, moved),
             }
@@ -121,8 +127,23 @@ impl InterfaceDefinition {
 
     /// Where the frames of bodies that turn are at displacements `u`, counted like all coordinates here.
     pub(in crate::contact) fn frame_poses(&self, u: &[f64]) -> Vec<FramePose> {
-        let poses = self.frames.poses(u).into_iter();
+        self.poses_of(&self.frames, u)
+    }
+
+    /// The same of other frames.
+    pub(in crate::contact) fn poses_of(&self, frames: &BodyFrames, u: &[f64]) -> Vec<FramePose> {
+        let poses = frames.poses(u).into_iter();
         poses.map(|pose| pose.counted_from(self.origin)).collect()
+    }
+
+    /// The frames in which bodies of its sides that turn are seen in an evaluation.
+    pub(in crate::contact) fn frames_at<'a>(&'a self, stage: &Stage<'a>) -> &'a Arc<BodyFrames> {
+        let takes_part = |frames: &BodyFrames| {
+            let mut nodes = self.nodes.iter();
+            nodes.any(|&node| frames.of_point(node).is_some())
+        };
+        let seen = stage.frames.filter(|frames| takes_part(frames));
+        seen.unwrap_or(&self.frames)
     }
 
     /// Whether the primary is an obstacle.

@@ -1,39 +1,46 @@
 //! Evaluation of one contact point: where it meets the primary, what the laws answer, force and tangent.
 
+use rayon::prelude::*;
+
 use super::definition::Primary;
-use super::evaluation::{Batch, Evaluation};
-use super::parts::Interface;
+use super::evaluation::{Batch, CHUNK, Evaluation, Evaluations};
+use super::on_facet::evaluate_facet;
+use super::on_mortar::evaluate_mortar;
+use super::on_obstacle::evaluate_rigid;
 use super::scene::Scene;
 use crate::contact::pairing::Anchor;
 
-/// A point whose stencil is made: the area it stands for, and where its nodes begin among those of the batch.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Met {
-    pub i: usize,
-    pub area: f64,
-    pub sides: usize,
+/// Evaluates a point.
+fn evaluate(i: usize, scene: &Scene, anchor: &mut Option<Anchor>, batch: &mut Batch) -> Evaluation {
+    let interface = scene.interface;
+    let glued = interface.state.start.glued.get(i);
+    let unglued = glued.is_some_and(|gap| gap.is_nan());
+    let excluded = interface.conditions.excluded.get(i) == Some(&true);
+    if unglued || excluded && !scene.wants.everywhere {
+        return Evaluation::open(f64::INFINITY);
+    }
+    match &interface.primary {
+        Primary::Rigid(shape, _) => evaluate_rigid(i, shape.as_dyn(), scene, batch),
+        Primary::Facets(_) if interface.mortar.is_some() => evaluate_mortar(i, scene, batch),
+        Primary::Facets(facets) => evaluate_facet(i, facets, scene, anchor, batch),
+    }
 }
 
-impl Interface {
-    /// A point, which at the evaluation before, in this attempt, was `last`.
-    pub(super) fn evaluate(
-        &self,
-        i: usize,
-        scene: &Scene,
-        last: Option<&Evaluation>,
-        anchor: &mut Option<Anchor>,
-        batch: &mut Batch,
-    ) -> Evaluation {
-        let glued = self.history.start.glued.get(i);
-        let unglued = glued.is_some_and(|gap| gap.is_nan());
-        let excluded = self.directives.excluded.get(i) == Some(&true);
-        if unglued || excluded && !scene.wants.everywhere {
-            return Evaluation::open(f64::INFINITY);
-        }
-        match &self.primary {
-            Primary::Rigid(shape, _) => self.evaluate_rigid(i, shape.as_dyn(), scene, batch),
-            Primary::Facets(_) if self.mortar.is_some() => self.evaluate_mortar(i, scene, batch),
-            Primary::Facets(facets) => self.evaluate_facet(i, facets, scene, last, anchor, batch),
-        }
-    }
+/// Evaluates all points, chunk by chunk.
+pub(super) fn evaluate_points(
+    scene: &Scene,
+    out: &mut Evaluations,
+    anchors: &mut [Option<Anchor>],
+) {
+    out.points
+        .par_chunks_mut(CHUNK)
+        .zip(out.batches.par_iter_mut())
+        .zip(anchors.par_chunks_mut(CHUNK))
+        .enumerate()
+        .for_each(|(chunk, ((points, batch), anchors))| {
+            batch.clear();
+            for (k, (e, anchor)) in points.iter_mut().zip(anchors).enumerate() {
+                *e = evaluate(chunk * CHUNK + k, scene, anchor, batch);
+            }
+        });
 }

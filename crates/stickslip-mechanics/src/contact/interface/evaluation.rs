@@ -175,6 +175,14 @@ impl Evaluation {
         (0..3).fold(0.0, |m: f64, i| m.max((d_gap[i][i] - d_rate[i]).abs()))
     }
 
+    /// The gap; infinite where nothing lies opposite.
+    pub fn known_gap(&self) -> f64 {
+        match self.over {
+            true => self.gap,
+            false => f64::INFINITY,
+        }
+    }
+
     /// A point that carries nothing.
     pub fn open(gap: f64) -> Self {
         Evaluation {

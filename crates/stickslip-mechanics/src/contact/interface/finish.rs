@@ -1,7 +1,6 @@
 //! Residual and tangent of a point from its stencil and what the laws answered.
 
 use super::evaluation::{Batch, Evaluation};
-use super::parts::Interface;
 use super::scene::Scene;
 use super::surrogate::{gain, surrogate};
 use crate::contact::enforcement::{condensed_slope, inverse_of_rows, residual};
@@ -10,60 +9,54 @@ use crate::math::{Mat3, dot};
 /// Roundings of the largest coordinate that a gap may be off.
 const ROUNDING: f64 = 4.0;
 
-impl Interface {
-    /// Residual and tangent from stencil and response, but for how gap and slips curve: the weights of their second derivatives, if a tangent is wanted and
-    /// something is carried.
-    pub(super) fn finish(
-        &self,
-        scene: &Scene,
-        e: &mut Evaluation,
-        batch: &mut Batch,
-    ) -> Option<[f64; 3]> {
-        if self.view().holds_exactly() {
-            // What it carries follows from how all else accelerates.
-            e.response.traction = [0.0; 3];
-            e.response.d_gap = [[0.0; 3]; 3];
-            add_force(e, [0.0; 3], batch);
-            add_rows(e, &[[0.0; 3]; 3], [0.0; 3], batch);
-            return None;
-        }
-        let unknown = self.view().unknown() && !scene.wants.initial;
-        let r = &e.response;
-        let traction = if unknown { e.multiplier } else { r.traction };
-        if traction == [0.0; 3] && r.traction == [0.0; 3] && r.d_gap == [[0.0; 3]; 3] {
-            return None;
-        }
-        add_force(e, traction, batch);
-        let inverse =
-            (unknown && scene.wants.tangent).then(|| inverse_of_rows(&e.response.d_multiplier));
-        if unknown {
-            e.saddle = Some(residual(
-                e.multiplier,
-                e.response.traction,
-                inverse.as_ref(),
-            ));
-        }
-        if !scene.wants.tangent {
-            return None;
-        }
-        // With multipliers as unknowns, what remains after their elimination is K_ll⁻¹ times as stiff.
-        let r = &e.response;
-        let (d, d_skew) = match &inverse {
-            Some(k) => (condensed_slope(k, &r.d_gap), k.map(|k| dot(k, r.d_skew))),
-            None => (r.d_gap, r.d_skew),
-        };
-        add_rows(e, &d, d_skew, batch);
-        let n = batch.stencil.n;
-        if scene.wants.surrogate {
-            let start = batch.surrogate.len();
-            e.slots.surrogate = Some(start);
-            batch.surrogate.resize(start + n * n, 0.0);
-            let rows = batch.stencil.rows.each_ref().map(|row| &row[..n]);
-            let gain = gain(&batch.stencil, &batch.rated);
-            surrogate(&d, gain, e.area, rows, &mut batch.surrogate[start..]);
-        }
-        (traction != [0.0; 3]).then(|| traction.map(|t| -e.area * t))
+/// Residual and tangent from stencil and response, but for how gap and slips curve: the weights of their second derivatives, if a tangent is wanted and
+/// something is carried.
+pub(super) fn finish(scene: &Scene, e: &mut Evaluation, batch: &mut Batch) -> Option<[f64; 3]> {
+    let interface = scene.interface;
+    if interface.holds_exactly() {
+        // What it carries follows from how all else accelerates.
+        e.response.traction = [0.0; 3];
+        e.response.d_gap = [[0.0; 3]; 3];
+        add_force(e, [0.0; 3], batch);
+        add_rows(e, &[[0.0; 3]; 3], [0.0; 3], batch);
+        return None;
     }
+    let unknown = interface.unknown() && !scene.wants.initial;
+    let r = &e.response;
+    let traction = if unknown { e.multiplier } else { r.traction };
+    if traction == [0.0; 3] && r.traction == [0.0; 3] && r.d_gap == [[0.0; 3]; 3] {
+        return None;
+    }
+    add_force(e, traction, batch);
+    let inverse =
+        (unknown && scene.wants.tangent).then(|| inverse_of_rows(&e.response.d_multiplier));
+    if unknown {
+        e.saddle = Some(residual(
+            e.multiplier,
+            e.response.traction,
+            inverse.as_ref(),
+        ));
+    }
+    if !scene.wants.tangent {
+        return None;
+    }
+    // With multipliers as unknowns, what remains after their elimination is K_ll⁻¹ times as stiff.
+    let r = &e.response;
+    let (d, d_skew) = match &inverse {
+        Some(k) => (condensed_slope(k, &r.d_gap), k.map(|k| dot(k, r.d_skew))),
+        None => (r.d_gap, r.d_skew),
+    };
+    add_rows(e, &d, d_skew, batch);
+    let n = batch.stencil.n;
+    if scene.wants.surrogate {
+        let start = batch.surrogate.len();
+        e.slots.surrogate = Some(start);
+        batch.surrogate.resize(start + n * n, 0.0);
+        let rows = batch.stencil.rows.each_ref().map(|row| &row[..n]);
+        let gain = gain(&batch.stencil, &batch.rated);
+        surrogate(&d, gain, e.area, rows, &mut batch.surrogate[start..]);
+    }
+    (traction != [0.0; 3]).then(|| traction.map(|t| -e.area * t))
 }
 
 /// The force of a traction, and what rounding of coordinates of the size of the stencil's leaves of it.

@@ -1,11 +1,19 @@
 //! The interface as Newton's method sees it: the only place that scatters contact into residual and tangent.
 
+use super::alone::{adopt_forces, points_alone};
+use super::augment::update_multipliers;
 use super::axles::hold_axles;
+use super::beginning::glue;
+use super::cache::Cache;
 use super::candidates::{pair_reference, update_candidates};
+use super::commit::accept;
+use super::curvature::add_curvature;
+use super::definition::InterfaceDefinition;
 use super::evaluation::Evaluations;
 use super::parts::Interface;
+use super::pass::evaluate_all;
 use super::scene::Wants;
-use super::symptoms::culprits;
+use super::symptoms::{culprit, culprits};
 use crate::contact::response::Status;
 use crate::math::{add_scaled, larger, scale};
 use crate::system::{
@@ -16,44 +24,83 @@ use crate::system::{
 impl Force for Interface {
     fn prepare(&mut self, stage: &Stage) {
         self.ready();
-        self.glue(stage);
-        let (definition, cache) = (&self.definition, &mut self.cache);
-        pair_reference(definition, cache);
+        glue(self, stage);
+        let (definition, geometry) = (&self.definition, &mut self.cache.geometry);
+        pair_reference(definition, geometry);
         if definition.mortar.is_none() && !definition.kinematics.as_dyn().frozen() {
-            definition.coordinates_into(&stage.at.u, &mut cache.x);
-            update_candidates(definition, &mut cache.search, &cache.x);
+            definition.coordinates_into(definition.frames_at(stage), &stage.at.u, &mut geometry.x);
+            update_candidates(definition, &mut geometry.search, &geometry.x);
         }
     }
 
     fn begin(&mut self) {
-        self.history.fit(self.points.len());
+        self.state.fit(self.definition.points.len());
         self.begin_attempt();
     }
 
     fn assemble(&mut self, stage: &Stage, out: &mut Assembler) -> Result<(), StepFailure> {
-        match self.frames.is_empty() {
-            true => self.assemble_in_space(stage, out),
-            false => self.assemble_in_frames(stage, out),
+        let active = self.schedule.active(stage.at.t);
+        if active {
+            let wants = Wants {
+                tangent: out.wants_tangent,
+                surrogate: out.wants_surrogate,
+                holds_turns: out.holds_turns,
+                ..Wants::default()
+            };
+            let (input, cache) = self.parts();
+            evaluate_all(input, cache, stage, wants);
+            let points = &self.cache.trial.points;
+            for (flips, e) in self.attempt.flips.iter_mut().zip(points) {
+                flips.meets(e.facet);
+            }
+        }
+        let nothing = Evaluations::default();
+        let Cache {
+            trial,
+            spatial,
+            geometry,
+            ..
+        } = &mut self.cache;
+        let evaluations = if active { trial } else { &nothing };
+        match self.definition.frames_at(stage).is_empty() {
+            true => scatter(&self.definition, evaluations, out),
+            // As they act on points in space, and then on bodies and frames of bodies that turn.
+            false => {
+                spatial.begin_beside(out);
+                scatter(&self.definition, evaluations, spatial);
+                geometry.in_space.assemble(spatial, out);
+            }
+        }
+        match active {
+            true => keep(self, out),
+            false => {
+                self.cache.last.points.clear();
+                self.attempt.tentative = false;
+            }
         }
         Ok(())
     }
 
     fn curve(&self, out: &mut Assembler) {
         let first = out.blocks.len();
-        self.add_curvature(&self.cache.last, out);
-        self.cache.in_space.blocks(&mut out.blocks[first..]);
+        add_curvature(self.input(), &self.cache, out);
+        self.cache
+            .geometry
+            .in_space
+            .blocks(&mut out.blocks[first..]);
     }
 
     fn hold_back(&self, b: &[f64], out: &mut Assembler) {
-        hold_axles(self, b, out);
+        hold_axles(self, self.cache.geometry.in_space.frames(), b, out);
     }
 
     fn settle(&mut self) {
-        if std::mem::take(&mut self.attempt.tentative) {
+        if self.attempt.tentative {
+            self.attempt.tentative = false;
             if self.view().unknown() {
-                std::mem::swap(&mut self.cache.last, &mut self.cache.trial);
+                self.cache.take_trial();
             }
-            self.record();
+            record(self);
         }
     }
 
@@ -62,7 +109,7 @@ impl Force for Interface {
             return;
         }
         let last = &self.cache.last;
-        let in_space = &self.cache.in_space;
+        let in_space = &self.cache.geometry.in_space;
         let multipliers = self.attempt.multipliers.iter_mut();
         for (i, (m, e)) in multipliers.zip(&last.points).enumerate() {
             let batch = last.batch(i);
@@ -84,19 +131,20 @@ impl Force for Interface {
     }
 
     fn augment(&mut self, stage: &Stage) -> Augmentation {
-        self.update_multipliers(stage)
+        update_multipliers(self, stage)
     }
 
     fn alone(&mut self, stage: &Stage) -> Option<Vec<Option<PointAlone>>> {
-        self.points_alone(stage)
+        let (input, cache) = self.parts();
+        points_alone(input, cache, stage)
     }
 
     fn adopt(&mut self, forces: &[Option<[f64; 3]>]) {
-        self.adopt_forces(forces);
+        adopt_forces(self, forces);
     }
 
     fn commit(&mut self, stage: &Stage) {
-        self.accept(stage);
+        accept(self, stage);
     }
 
     fn tally(&self) -> Option<Tally> {
@@ -121,7 +169,7 @@ impl Force for Interface {
     }
 
     fn place(&self, point: usize) -> Option<Culprit> {
-        (point < self.points.len()).then(|| self.culprit(point))
+        (point < self.points.len()).then(|| culprit(self, point))
     }
 
     fn active_set(&mut self) -> Option<&mut dyn ActiveSet> {
@@ -129,8 +177,9 @@ impl Force for Interface {
     }
 }
 
-/// Adds residual and tangent of all points.
-fn scatter(evaluations: &Evaluations, out: &mut Assembler) {
+/// Adds residual and tangent of all points, and tells which facets they meet.
+fn scatter(definition: &InterfaceDefinition, evaluations: &Evaluations, out: &mut Assembler) {
+    add_pairs(definition, evaluations, out);
     for (i, e) in evaluations.points.iter().enumerate() {
         let (batch, area) = (evaluations.batch(i), e.area);
         let dofs = batch.dofs(e);
@@ -155,109 +204,73 @@ fn scatter(evaluations: &Evaluations, out: &mut Assembler) {
     }
 }
 
-impl Interface {
-    /// Residual and tangent as they act on bodies and frames of bodies that turn.
-    fn assemble_in_frames(&mut self, stage: &Stage, out: &mut Assembler) {
-        let mut spatial = std::mem::take(&mut self.cache.spatial);
-        if spatial.residual.len() != out.residual.len() {
-            spatial = Assembler::new(out.residual.len());
-        }
-        spatial.wants_surrogate = out.wants_surrogate;
-        spatial.wants_pairs = out.wants_pairs;
-        spatial.holds_turns = out.holds_turns;
-        spatial.tentative = out.tentative;
-        spatial.reset(out.wants_tangent);
-        self.assemble_in_space(stage, &mut spatial);
-        self.cache.in_space.assemble(&mut spatial, out);
-        self.cache.spatial = spatial;
+/// Tells of all points that are points of the mesh and of the facets they meet, if that is wanted. Without evaluations they meet
+/// none.
+fn add_pairs(definition: &InterfaceDefinition, evaluations: &Evaluations, out: &mut Assembler) {
+    if !out.wants_tangent || !out.wants_pairs {
+        return;
     }
-
-    /// Residual and tangent as they act on points in space.
-    fn assemble_in_space(&mut self, stage: &Stage, out: &mut Assembler) {
-        if !self.schedule.active(stage.at.t) {
-            self.cache.last.points.clear();
-            self.attempt.tentative = false;
-            self.add_pairs(&Evaluations::default(), out);
-            return;
-        }
-        let wants = Wants {
-            tangent: out.wants_tangent,
-            surrogate: out.wants_surrogate,
-            holds_turns: out.holds_turns,
-            ..Wants::default()
+    for (i, point) in definition.points.iter().enumerate() {
+        let Some(node) = point.node() else {
+            continue;
         };
-        let evaluations = self.evaluate_all(stage, wants);
-        for (flips, e) in self.attempt.flips.iter_mut().zip(&evaluations.points) {
-            flips.meets(e.facet);
-        }
-        self.add_pairs(&evaluations, out);
-        scatter(&evaluations, out);
-        let pending = out.wants_tangent && out.tentative;
-        self.attempt.tentative = pending;
-        // The multiplier rows of the last iterate are needed until the step has been taken.
-        if self.view().unknown() && (pending || !out.wants_tangent) {
-            for (kept, e) in (self.cache.last.points.iter_mut()).zip(&evaluations.points) {
-                kept.response = e.response;
-                kept.gap = e.gap;
-            }
-            self.cache.trial = evaluations;
-        } else {
-            self.cache.trial = std::mem::replace(&mut self.cache.last, evaluations);
-        }
-        if out.wants_tangent && !out.tentative {
-            self.record();
-        }
+        let e = evaluations.points.get(i);
+        let facet = e.filter(|e| e.over).map_or(Vec::new(), |e| {
+            let sides = evaluations.batch(i).sides(e).iter();
+            let met = sides.filter(|(n, _)| *n < definition.primary_nodes);
+            met.map(|&(n, w)| (definition.nodes[n], -w)).collect()
+        });
+        let normal = e.map_or([0.0; 3], |e| e.frames.normal);
+        out.pairs.push(ContactPair {
+            point: definition.nodes[node],
+            facet,
+            normal: if normal == [0.0; 3] {
+                point.normal
+            } else {
+                normal
+            },
+        });
     }
+}
 
-    /// Tells of all points that are points of the mesh and of the facets they meet, if that is wanted. Without evaluations they meet
-    /// none.
-    fn add_pairs(&self, evaluations: &Evaluations, out: &mut Assembler) {
-        if !out.wants_tangent || !out.wants_pairs {
-            return;
+/// Keeps the trial for what comes next: where the iterate stays, its multiplier rows are needed until the step has been taken.
+fn keep(interface: &mut Interface, out: &Assembler) {
+    let pending = out.wants_tangent && out.tentative;
+    interface.attempt.tentative = pending;
+    let unknown = interface.view().unknown();
+    let cache = &mut interface.cache;
+    if unknown && (pending || !out.wants_tangent) {
+        for (kept, e) in cache.last.points.iter_mut().zip(&cache.trial.points) {
+            kept.response = e.response;
+            kept.gap = e.gap;
         }
-        for (i, point) in self.points.iter().enumerate() {
-            let Some(node) = point.node() else {
-                continue;
-            };
-            let e = evaluations.points.get(i);
-            let facet = e.filter(|e| e.over).map_or(Vec::new(), |e| {
-                let sides = evaluations.batch(i).sides(e).iter();
-                let met = sides.filter(|(n, _)| *n < self.primary_nodes);
-                met.map(|&(n, w)| (self.nodes[n], -w)).collect()
-            });
-            let normal = e.map_or([0.0; 3], |e| e.frames.normal);
-            out.pairs.push(ContactPair {
-                point: self.nodes[node],
-                facet,
-                normal: if normal == [0.0; 3] {
-                    point.normal
-                } else {
-                    normal
-                },
-            });
-        }
+    } else {
+        cache.take_trial();
     }
+    if out.wants_tangent && !out.tentative {
+        record(interface);
+    }
+}
 
-    /// Makes the last evaluation the iterate from which Newton's method steps.
-    fn record(&mut self) {
-        let unknown = self.view().unknown();
-        let attempt = &mut self.attempt;
-        let last = &self.cache.last.points;
-        attempt.never_in_contact = false;
-        attempt.changed = 0;
-        for (flips, e) in attempt.flips.iter_mut().zip(last) {
-            attempt.changed += usize::from(flips.note(e.response.status));
-            flips.slid(e);
-            let over = e.over;
-            flips.left += usize::from(flips.over && !over);
-            flips.over = over;
-        }
-        if unknown {
-            for (m, e) in attempt.multipliers.iter_mut().zip(last) {
-                m.base = e.multiplier;
-                m.frame = e.frames.before;
-                m.frame_normal = e.frames.normal_before;
-            }
+/// Makes the last evaluation the iterate from which Newton's method steps.
+fn record(interface: &mut Interface) {
+    let unknown = interface.view().unknown();
+    let attempt = &mut interface.attempt;
+    let last = &interface.cache.last.points;
+    attempt.never_in_contact = false;
+    attempt.changed = 0;
+    for (flips, e) in attempt.flips.iter_mut().zip(last) {
+        attempt.changed += usize::from(flips.note(e.response.status));
+        flips.slid(e);
+        let over = e.over;
+        flips.left += usize::from(flips.over && !over);
+        flips.over = over;
+    }
+    if unknown {
+        for (m, e) in attempt.multipliers.iter_mut().zip(last) {
+            m.base = e.multiplier;
+            m.frame = e.frames.before;
+            m.frame_normal = e.frames.normal_before;
         }
     }
 }

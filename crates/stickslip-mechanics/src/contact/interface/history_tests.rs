@@ -51,13 +51,13 @@ fn what_is_reported_does_not_depend_on_what_was_tried_since() {
             let state = accept(&mut interface, &origin, slid(drum, 1e-4, 0.0));
             let state = accept(&mut interface, &state, slid(drum, 0.05, 0.0));
             let before = said(interface.view(), &state);
-            let history = interface.history.clone();
+            let history = interface.state.clone();
             tried(&mut interface, &state, slid(drum, 0.3, 0.002));
             assert_eq!(said(interface.view(), &state), before, "{what}");
-            assert_eq!(interface.history, history, "{what}");
+            assert_eq!(interface.state, history, "{what}");
             // The history is all there is to it.
             let mut other = interface.clone();
-            other.history = history;
+            other.state = history;
             assert_eq!(said(other.view(), &state), before, "{what}");
         }
     }
@@ -71,7 +71,7 @@ fn a_history_takes_the_memory_that_is_counted() {
             let origin = start(&interface);
             let state = accept(&mut interface, &origin, slid(drum, 1e-4, 0.0));
             accept(&mut interface, &state, slid(drum, 0.05, 0.0));
-            let (taken, counted) = (interface.history.taken(), interface.history_bytes());
+            let (taken, counted) = (interface.state.taken(), interface.history_bytes());
             assert!(taken <= counted, "{what}: {taken} of {counted}");
             assert!(counted <= 3 * taken, "{what}: {taken} of {counted}");
         }

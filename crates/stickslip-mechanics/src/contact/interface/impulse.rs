@@ -1,6 +1,7 @@
 //! Contact of masses with what does not give way: the points that are pressed, as an impact sees them.
 
 use super::parts::Interface;
+use super::pass::evaluate_all;
 use super::scene::Wants;
 use crate::system::Stage;
 
@@ -15,32 +16,30 @@ pub struct Pressed {
     pub force: f64,
 }
 
-impl Interface {
-    /// The points that are pressed at the end of an increment that has been solved.
-    pub fn pressed(&mut self, stage: &Stage) -> Vec<Pressed> {
-        if !self.schedule.active(stage.at.t) {
-            return Vec::new();
-        }
-        let wants = Wants {
-            tangent: true,
-            ..Wants::default()
-        };
-        let evaluations = self.evaluate_all(stage, wants);
-        let points = evaluations.points.iter().enumerate();
-        let pressed = points.filter(|(_, e)| e.saddle.is_some() && e.multiplier[0] > 0.0);
-        let found = pressed.filter_map(|(i, e)| {
-            let batch = evaluations.batch(i);
-            let mut dofs = batch.dofs(e).to_vec();
-            let mut gap = batch.tangent(e)?.rows[..dofs.len()].to_vec();
-            self.cache.in_space.gradients(&mut dofs, &mut gap);
-            Some(Pressed {
-                gap,
-                dofs,
-                force: e.area * e.multiplier[0],
-            })
-        });
-        let found = found.collect();
-        self.cache.trial = evaluations;
-        found
+/// The points that are pressed at the end of an increment that has been solved.
+pub fn pressed_points(interface: &mut Interface, stage: &Stage) -> Vec<Pressed> {
+    if !interface.schedule.active(stage.at.t) {
+        return Vec::new();
     }
+    let wants = Wants {
+        tangent: true,
+        ..Wants::default()
+    };
+    let (input, cache) = interface.parts();
+    evaluate_all(input, cache, stage, wants);
+    let (evaluations, in_space) = (&cache.trial, &cache.geometry.in_space);
+    let points = evaluations.points.iter().enumerate();
+    let pressed = points.filter(|(_, e)| e.saddle.is_some() && e.multiplier[0] > 0.0);
+    let found = pressed.filter_map(|(i, e)| {
+        let batch = evaluations.batch(i);
+        let mut dofs = batch.dofs(e).to_vec();
+        let mut gap = batch.tangent(e)?.rows[..dofs.len()].to_vec();
+        in_space.gradients(&mut dofs, &mut gap);
+        Some(Pressed {
+            gap,
+            dofs,
+            force: e.area * e.multiplier[0],
+        })
+    });
+    found.collect()
 }

@@ -1,7 +1,11 @@
 //! What small motions about an accepted state meet at each contact point.
 
+use super::cache::Geometry;
+use super::conditions::Conditions;
 use super::evaluation::{Batch, Evaluation};
+use super::input::InterfaceInput;
 use super::parts::Interface;
+use super::pass::evaluate_all;
 use super::scene::Wants;
 use crate::contact::enforcement::{Multipliers, condensed_slope, inverse_of_rows};
 use crate::contact::response::Status;
@@ -40,113 +44,132 @@ pub struct LinearPoint {
     pub limit: f64,
 }
 
-impl Interface {
-    /// All points that carry something at a stage that goes nowhere, from the accepted state to itself.
-    ///
-    /// Points that slide have no stiffness along the surface, also those that slid in the last increment of a step that was not steady; what sticks has all of
-    /// it. Constraints that multipliers hold exactly are as stiff as rounding allows. How gradients turn with displacements is left out: that is of the size of
-    /// pressure over modulus.
-    pub fn linearise(&mut self, stage: &Stage) -> Vec<LinearPoint> {
-        if !self.schedule.active(stage.at.t) {
-            return Vec::new();
-        }
-        self.prepare(stage);
-        self.begin();
-        // What just touches carries nothing.
-        self.attempt.never_in_contact = false;
-        let wants = Wants {
-            tangent: true,
-            ..Wants::default()
-        };
-        let evaluations = self.evaluate_all(stage, wants);
-        let points = evaluations.points.iter().enumerate();
-        let lines = points.filter_map(|(i, e)| self.line(i, e, evaluations.batch(i), stage.dt));
-        let lines = lines.collect();
-        self.cache.trial = evaluations;
-        lines
+/// All points that carry something at a stage that goes nowhere, from the accepted state to itself.
+///
+/// Points that slide have no stiffness along the surface, also those that slid in the last increment of a step that was not steady; what sticks has all of
+/// it. Constraints that multipliers hold exactly are as stiff as rounding allows. How gradients turn with displacements is left out: that is of the size of
+/// pressure over modulus.
+pub fn linearise(
+    interface: &mut Interface,
+    conditions: &Conditions,
+    stage: &Stage,
+) -> Vec<LinearPoint> {
+    if !interface.schedule.active(stage.at.t) {
+        return Vec::new();
     }
+    interface.prepare(stage);
+    interface.begin();
+    // What just touches carries nothing.
+    interface.attempt.never_in_contact = false;
+    let wants = Wants {
+        tangent: true,
+        ..Wants::default()
+    };
+    let (input, cache) = interface.parts();
+    let input = InterfaceInput {
+        conditions,
+        ..input
+    };
+    evaluate_all(input, cache, stage, wants);
+    let (evaluations, geometry) = (&cache.trial, &cache.geometry);
+    let points = evaluations.points.iter().enumerate();
+    let lines =
+        points.filter_map(|(i, e)| line(input, i, e, evaluations.batch(i), geometry, stage.dt));
+    lines.collect()
+}
 
-    fn line(&self, i: usize, e: &Evaluation, batch: &Batch, dt: f64) -> Option<LinearPoint> {
-        let tangent = batch.tangent(e)?;
-        let status = match self.laws.tied {
-            true => Status::Stick,
-            false => e.response.status,
-        };
-        // Where surfaces have just parted, rounding would close them.
-        let before = self.history.points[i].status;
-        let parted = self.history.acting && !self.laws.tied && before == Status::Open;
-        if status == Status::Open || parted {
-            return None;
-        }
-        let slid = !self.laws.tied && before == Status::Slip;
-        let (stiffness, damping) = self.parts(i, e, (slid, dt));
-        let (mut dofs, mut rows) = (batch.dofs(e).to_vec(), tangent.rows.to_vec());
-        (self.cache.in_space).gradients(&mut dofs, &mut rows);
-        Some(LinearPoint {
-            point: i,
-            status: if slid { Status::Slip } else { status },
-            steady: e.steady,
-            dofs,
-            rows,
-            stiffness,
-            damping,
-            position: add(self.origin, self.points[i].position(&self.cache.x)),
-            area: e.area,
-            pressure: e.response.traction[0],
-            limit: e.response.limit,
-        })
+fn line(
+    interface: InterfaceInput,
+    i: usize,
+    e: &Evaluation,
+    batch: &Batch,
+    geometry: &Geometry,
+    dt: f64,
+) -> Option<LinearPoint> {
+    let tangent = batch.tangent(e)?;
+    let status = match interface.laws.tied {
+        true => Status::Stick,
+        false => e.response.status,
+    };
+    // Where surfaces have just parted, rounding would close them.
+    let before = interface.state.points[i].status;
+    let parted = interface.state.acting && !interface.laws.tied && before == Status::Open;
+    if status == Status::Open || parted {
+        return None;
     }
+    let slid = !interface.laws.tied && before == Status::Slip;
+    let (stiffness, damping) = stiffness_and_damping(interface, i, e, (slid, dt));
+    let (mut dofs, mut rows) = (batch.dofs(e).to_vec(), tangent.rows.to_vec());
+    geometry.in_space.gradients(&mut dofs, &mut rows);
+    Some(LinearPoint {
+        point: i,
+        status: if slid { Status::Slip } else { status },
+        steady: e.steady,
+        dofs,
+        rows,
+        stiffness,
+        damping,
+        position: add(interface.origin, interface.points[i].position(&geometry.x)),
+        area: e.area,
+        pressure: e.response.traction[0],
+        limit: e.response.limit,
+    })
+}
 
-    /// Stiffness and damping of a point `[N/m, N s/m]`.
-    fn parts(&self, i: usize, e: &Evaluation, (slid, dt): (bool, f64)) -> (Mat3, Mat3) {
-        let r = &e.response;
-        let d = match self.view().unknown() {
-            true => condensed_slope(&inverse_of_rows(&r.d_multiplier), &r.d_gap),
-            false => r.d_gap,
-        };
-        let [normal, tangential] = self.firmness(i, e);
-        // Of the slope against the gap that part which is there because the approach is damped.
-        let damped = match d[0][0] {
-            0.0 => 0.0,
-            slope => r.d_rate[0] / slope,
-        };
-        let (mut stiffness, mut damping) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
-        for q in 0..3 {
-            stiffness[q][0] = -e.area * normal * (1.0 - damped) * d[q][0];
-            damping[q][0] = -e.area * dt * damped * d[q][0];
-            for j in 1..3 {
-                match e.steady {
-                    true => damping[q][j] = -e.area * dt * d[q][j],
-                    false if slid => {}
-                    false => stiffness[q][j] = -e.area * tangential * d[q][j],
-                }
+/// Stiffness and damping of a point `[N/m, N s/m]`.
+fn stiffness_and_damping(
+    interface: InterfaceInput,
+    i: usize,
+    e: &Evaluation,
+    (slid, dt): (bool, f64),
+) -> (Mat3, Mat3) {
+    let r = &e.response;
+    let d = match interface.unknown() {
+        true => condensed_slope(&inverse_of_rows(&r.d_multiplier), &r.d_gap),
+        false => r.d_gap,
+    };
+    let [normal, tangential] = firmness(interface, i, e);
+    // Of the slope against the gap that part which is there because the approach is damped.
+    let damped = match d[0][0] {
+        0.0 => 0.0,
+        slope => r.d_rate[0] / slope,
+    };
+    let (mut stiffness, mut damping) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
+    for q in 0..3 {
+        stiffness[q][0] = -e.area * normal * (1.0 - damped) * d[q][0];
+        damping[q][0] = -e.area * dt * damped * d[q][0];
+        for j in 1..3 {
+            match e.steady {
+                true => damping[q][j] = -e.area * dt * d[q][j],
+                false if slid => {}
+                false => stiffness[q][j] = -e.area * tangential * d[q][j],
             }
-            // Friction of what slid without a direction that lasts does not follow the pressure either.
-            if q > 0 && !e.steady && !self.laws.tied {
-                stiffness[q][0] = 0.0;
-                damping[q][0] = 0.0;
-            }
         }
-        (stiffness, damping)
+        // Friction of what slid without a direction that lasts does not follow the pressure either.
+        if q > 0 && !e.steady && !interface.laws.tied {
+            stiffness[q][0] = 0.0;
+            damping[q][0] = 0.0;
+        }
     }
+    (stiffness, damping)
+}
 
-    /// By how much more the constraints against penetration and slip are to hold than they do.
-    fn firmness(&self, i: usize, e: &Evaluation) -> [f64; 2] {
-        let exact = matches!(
-            self.laws.enforcement.as_dyn().multipliers(),
-            Multipliers::Augmented { .. }
-        );
-        let own = self.points[i].stiffness;
-        let more = |needed: bool, stiffness: f64| match needed && exact && stiffness.is_finite() {
-            true => (FIRM * own / stiffness).max(1.0),
-            false => 1.0,
-        };
-        [
-            more(self.laws.needs_normal_stiffness(), e.normal_stiffness),
-            more(
-                self.laws.needs_tangential_stiffness(),
-                e.tangential_stiffness,
-            ),
-        ]
-    }
+/// By how much more the constraints against penetration and slip are to hold than they do.
+fn firmness(interface: InterfaceInput, i: usize, e: &Evaluation) -> [f64; 2] {
+    let exact = matches!(
+        interface.laws.enforcement.as_dyn().multipliers(),
+        Multipliers::Augmented { .. }
+    );
+    let own = interface.points[i].stiffness;
+    let more = |needed: bool, stiffness: f64| match needed && exact && stiffness.is_finite() {
+        true => (FIRM * own / stiffness).max(1.0),
+        false => 1.0,
+    };
+    [
+        more(interface.laws.needs_normal_stiffness(), e.normal_stiffness),
+        more(
+            interface.laws.needs_tangential_stiffness(),
+            e.tangential_stiffness,
+        ),
+    ]
 }

@@ -3,7 +3,10 @@
 use super::candidates::{closest_of_all, update_candidates};
 use super::definition::Primary;
 use super::initial::TOUCHING;
+use super::input::InterfaceInput;
 use super::parts::Interface;
+use super::search::Search;
+use super::view::ContactView;
 use crate::contact::kinematics::mean_gap;
 use crate::contact::surface::{Facet, triangulate};
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, sub};
@@ -29,167 +32,192 @@ const EDGE: f64 = 1e-6;
 /// Part of the margin of the search that is gone at once where no facet is near.
 const STRIDE: f64 = 0.5;
 
-impl Interface {
-    /// How much of the motion `w` (by dof, added to displacements `u`) can be made at time `t` until points of the secondary touch the
-    /// primary.
-    pub fn meeting(&mut self, u: &[f64], w: &[f64], t: f64) -> Meeting {
-        let none = Meeting {
-            way: f64::INFINITY,
-            touching: Vec::new(),
-        };
-        let speeds: Vec<Vec3> = (self.nodes.iter())
-            .map(|&node| self.dofs.vector(w, node))
-            .collect();
-        let largest = speeds.iter().map(|&v| norm(v)).fold(0.0, f64::max);
-        if largest == 0.0 {
-            return none;
-        }
-        let x = self.coordinates(u);
-        match &self.primary {
-            Primary::Rigid(..) => self.meeting_obstacle(&x, &speeds, largest, t),
-            Primary::Facets(_) => match self.meeting_of_boxes(&x, &speeds, largest, t) {
-                Some(0.0) => self.meeting_facets(&x, &speeds, largest, t),
-                Some(way) => Meeting { way, ..none },
-                None => none,
-            },
-        }
+/// How much of the motion `w` (by dof, added to displacements `u`) can be made at time `t` until points of the secondary touch the
+/// primary.
+pub fn meeting(interface: &mut Interface, u: &[f64], w: &[f64], t: f64) -> Meeting {
+    let none = Meeting {
+        way: f64::INFINITY,
+        touching: Vec::new(),
+    };
+    let speeds: Vec<Vec3> = (interface.nodes.iter())
+        .map(|&node| interface.dofs.vector(w, node))
+        .collect();
+    let largest = speeds.iter().map(|&v| norm(v)).fold(0.0, f64::max);
+    if largest == 0.0 {
+        return none;
     }
-
-    fn meeting_obstacle(&self, x: &[Vec3], speeds: &[Vec3], largest: f64, t: f64) -> Meeting {
-        let mut meeting = Meeting {
-            way: f64::INFINITY,
-            touching: Vec::new(),
-        };
-        let Primary::Rigid(shape, motion) = &self.primary else {
-            return meeting;
-        };
-        let pose = motion.pose(t);
-        for (i, point) in self.points.iter().enumerate() {
-            let Some(foot) = shape.as_dyn().foot(pose.inward(point.position(x))) else {
-                continue;
-            };
-            let v = point.position(speeds);
-            let closing = -dot(v, pose.turn(foot.normal));
-            if closing <= SLIDING * largest {
-                continue;
-            }
-            let gap = mean_gap(shape.as_dyn(), &pose, point, x).unwrap_or(foot.gap);
-            let gap = gap - self.view().offset(i, t);
-            if gap <= CLOSE * TOUCHING * point.size {
-                meeting.touching.push((self.nodes[point.nodes[0]], None));
-                continue;
-            }
-            // Seen from inside, the surface is nearer than its tangent plane: no further than it is away.
-            let hollow = (0..3).map(|i| foot.curvature[i][i]).sum::<f64>() < 0.0;
-            let speed = if hollow { norm(v) } else { closing };
-            meeting.way = meeting.way.min(gap / speed);
-        }
-        meeting
+    let x = interface.coordinates(u);
+    let (InterfaceInput { contact, .. }, cache) = interface.parts();
+    let search = &mut cache.geometry.search;
+    match &contact.primary {
+        Primary::Rigid(..) => meeting_obstacle(contact, &x, &speeds, largest, t),
+        Primary::Facets(_) => match meeting_of_boxes(contact, &x, &speeds, largest, t) {
+            Some(0.0) => meeting_facets(contact, search, &x, &speeds, largest, t),
+            Some(way) => Meeting { way, ..none },
+            None => none,
+        },
     }
+}
 
-    /// How far the motion can go until the boxes around both sides touch; `None` if they never do.
-    fn meeting_of_boxes(&self, x: &[Vec3], speeds: &[Vec3], largest: f64, t: f64) -> Option<f64> {
-        let Primary::Facets(facets) = &self.primary else {
-            return None;
+fn meeting_obstacle(
+    interface: ContactView,
+    x: &[Vec3],
+    speeds: &[Vec3],
+    largest: f64,
+    t: f64,
+) -> Meeting {
+    let mut meeting = Meeting {
+        way: f64::INFINITY,
+        touching: Vec::new(),
+    };
+    let Primary::Rigid(shape, motion) = &interface.primary else {
+        return meeting;
+    };
+    let pose = motion.pose(t);
+    for (i, point) in interface.points.iter().enumerate() {
+        let Some(foot) = shape.as_dyn().foot(pose.inward(point.position(x))) else {
+            continue;
         };
-        let range = |of: &[Vec3], nodes: &mut dyn Iterator<Item = usize>| {
-            nodes.fold([[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]], |b, n| {
-                let of = of[n];
-                [
-                    std::array::from_fn(|c| b[0][c].min(of[c])),
-                    std::array::from_fn(|c| b[1][c].max(of[c])),
-                ]
-            })
-        };
-        let ours = || self.points.iter().flat_map(|p| p.nodes.iter().copied());
-        let theirs = || facets.iter().flat_map(|f| f.nodes.iter().copied());
-        let (a, b) = (range(x, &mut ours()), range(x, &mut theirs()));
-        let (va, vb) = (range(speeds, &mut ours()), range(speeds, &mut theirs()));
-        let smallest = self.points.iter().map(|p| p.size);
-        let slack = CLOSE * TOUCHING * smallest.fold(f64::INFINITY, f64::min);
-        // Surfaces that have entered each other by part of a cell have not passed each other.
-        let entered = self.points.iter().map(|p| p.size).fold(0.0, f64::max);
-        // What counts as no gap.
-        let offsets = (0..self.points.len()).map(|i| self.view().offset(i, t));
-        let closed = offsets.fold(0.0, f64::max);
-        let (mut entry, mut exit) = (0.0_f64, f64::INFINITY);
-        for c in 0..self.dofs.dim {
-            for (upper, lower, v_upper, v_lower) in [(a, b, va, vb), (b, a, vb, va)] {
-                let apart = upper[0][c] - lower[1][c] - closed;
-                let fastest = v_lower[1][c] - v_upper[0][c];
-                let slowest = v_lower[0][c] - v_upper[1][c];
-                if apart > slack {
-                    if fastest <= SLIDING * largest && apart <= entered {
-                        continue;
-                    }
-                    if fastest <= SLIDING * largest {
-                        return None;
-                    }
-                    entry = entry.max(apart / fastest);
-                } else if slowest < 0.0 {
-                    exit = exit.min((apart - slack) / slowest);
+        let v = point.position(speeds);
+        let closing = -dot(v, pose.turn(foot.normal));
+        if closing <= SLIDING * largest {
+            continue;
+        }
+        let gap = mean_gap(shape.as_dyn(), &pose, point, x).unwrap_or(foot.gap);
+        let gap = gap - interface.offset(i, t);
+        if gap <= CLOSE * TOUCHING * point.size {
+            meeting
+                .touching
+                .push((interface.nodes[point.nodes[0]], None));
+            continue;
+        }
+        // Seen from inside, the surface is nearer than its tangent plane: no further than it is away.
+        let hollow = (0..3).map(|i| foot.curvature[i][i]).sum::<f64>() < 0.0;
+        let speed = if hollow { norm(v) } else { closing };
+        meeting.way = meeting.way.min(gap / speed);
+    }
+    meeting
+}
+
+/// How far the motion can go until the boxes around both sides touch; `None` if they never do.
+fn meeting_of_boxes(
+    interface: ContactView,
+    x: &[Vec3],
+    speeds: &[Vec3],
+    largest: f64,
+    t: f64,
+) -> Option<f64> {
+    let Primary::Facets(facets) = &interface.primary else {
+        return None;
+    };
+    let range = |of: &[Vec3], nodes: &mut dyn Iterator<Item = usize>| {
+        nodes.fold([[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]], |b, n| {
+            let of = of[n];
+            [
+                std::array::from_fn(|c| b[0][c].min(of[c])),
+                std::array::from_fn(|c| b[1][c].max(of[c])),
+            ]
+        })
+    };
+    let ours = || {
+        interface
+            .points
+            .iter()
+            .flat_map(|p| p.nodes.iter().copied())
+    };
+    let theirs = || facets.iter().flat_map(|f| f.nodes.iter().copied());
+    let (a, b) = (range(x, &mut ours()), range(x, &mut theirs()));
+    let (va, vb) = (range(speeds, &mut ours()), range(speeds, &mut theirs()));
+    let smallest = interface.points.iter().map(|p| p.size);
+    let slack = CLOSE * TOUCHING * smallest.fold(f64::INFINITY, f64::min);
+    // Surfaces that have entered each other by part of a cell have not passed each other.
+    let entered = interface.points.iter().map(|p| p.size).fold(0.0, f64::max);
+    // What counts as no gap.
+    let offsets = (0..interface.points.len()).map(|i| interface.offset(i, t));
+    let closed = offsets.fold(0.0, f64::max);
+    let (mut entry, mut exit) = (0.0_f64, f64::INFINITY);
+    for c in 0..interface.dofs.dim {
+        for (upper, lower, v_upper, v_lower) in [(a, b, va, vb), (b, a, vb, va)] {
+            let apart = upper[0][c] - lower[1][c] - closed;
+            let fastest = v_lower[1][c] - v_upper[0][c];
+            let slowest = v_lower[0][c] - v_upper[1][c];
+            if apart > slack {
+                if fastest <= SLIDING * largest && apart <= entered {
+                    continue;
                 }
+                if fastest <= SLIDING * largest {
+                    return None;
+                }
+                entry = entry.max(apart / fastest);
+            } else if slowest < 0.0 {
+                exit = exit.min((apart - slack) / slowest);
             }
         }
-        (entry <= exit).then_some(entry)
     }
+    (entry <= exit).then_some(entry)
+}
 
-    fn meeting_facets(&mut self, x: &[Vec3], speeds: &[Vec3], largest: f64, t: f64) -> Meeting {
-        let mut meeting = Meeting {
-            way: f64::INFINITY,
-            touching: Vec::new(),
-        };
-        update_candidates(&self.definition, &mut self.cache.search, x);
-        let search = &self.cache.search;
-        let feet = closest_of_all(&self.definition, x, search);
-        let facets = self.facets();
-        let margin = search.margin;
-        let stride = STRIDE * margin / (2.0 * largest);
-        for (i, point) in self.points.iter().enumerate() {
-            let (position, v) = (point.position(x), point.position(speeds));
-            let offset = self.view().offset(i, t);
-            let foot = feet[i].as_ref().ok();
-            let foot = foot.map(|&(f, ref foot)| {
-                let nodes = facets[f].nodes.iter().zip(&foot.n);
-                let carried = nodes.fold([0.0; 3], |s, (&node, &n)| add_scaled(s, n, speeds[node]));
-                let gap = dot(sub(position, foot.x), foot.normal) - offset;
-                (gap, -dot(sub(v, carried), foot.normal), facets[f].nodes[0])
-            });
-            if let Some((gap, closing, node)) = foot
-                && gap <= CLOSE * TOUCHING * point.size
-                && closing > SLIDING * largest
-            {
-                let secondary = self.nodes[point.nodes[0]];
-                let primary = self.nodes[node];
-                meeting.touching.push((secondary, Some(primary)));
-                continue;
-            }
-            // Along the motion another facet may be met before the nearest one.
-            let mut way = f64::INFINITY;
-            for &f in &search.candidates[i] {
-                way = way.min(along_ray(
-                    &facets[f],
-                    x,
-                    speeds,
-                    (position, v, offset),
-                    largest,
-                ));
-            }
-            if way * largest > CLOSE * TOUCHING * point.size {
-                meeting.way = meeting.way.min(way);
-            }
-            // What is left to facets that are curved.
-            if let Some((gap, closing, _)) = foot
-                && gap > CLOSE * TOUCHING * point.size
-                && closing > SLIDING * largest
-                && gap <= 0.1 * margin
-            {
-                meeting.way = meeting.way.min(gap / closing);
-            }
+fn meeting_facets(
+    interface: ContactView,
+    search: &mut Search,
+    x: &[Vec3],
+    speeds: &[Vec3],
+    largest: f64,
+    t: f64,
+) -> Meeting {
+    let mut meeting = Meeting {
+        way: f64::INFINITY,
+        touching: Vec::new(),
+    };
+    update_candidates(interface.definition, search, x);
+    let feet = closest_of_all(interface.definition, x, search);
+    let facets = interface.facets();
+    let margin = search.margin;
+    let stride = STRIDE * margin / (2.0 * largest);
+    for (i, point) in interface.points.iter().enumerate() {
+        let (position, v) = (point.position(x), point.position(speeds));
+        let offset = interface.offset(i, t);
+        let foot = feet[i].as_ref().ok();
+        let foot = foot.map(|&(f, ref foot)| {
+            let nodes = facets[f].nodes.iter().zip(&foot.n);
+            let carried = nodes.fold([0.0; 3], |s, (&node, &n)| add_scaled(s, n, speeds[node]));
+            let gap = dot(sub(position, foot.x), foot.normal) - offset;
+            (gap, -dot(sub(v, carried), foot.normal), facets[f].nodes[0])
+        });
+        if let Some((gap, closing, node)) = foot
+            && gap <= CLOSE * TOUCHING * point.size
+            && closing > SLIDING * largest
+        {
+            let secondary = interface.nodes[point.nodes[0]];
+            let primary = interface.nodes[node];
+            meeting.touching.push((secondary, Some(primary)));
+            continue;
         }
-        meeting.way = meeting.way.min(stride);
-        meeting
+        // Along the motion another facet may be met before the nearest one.
+        let mut way = f64::INFINITY;
+        for &f in &search.candidates[i] {
+            way = way.min(along_ray(
+                &facets[f],
+                x,
+                speeds,
+                (position, v, offset),
+                largest,
+            ));
+        }
+        if way * largest > CLOSE * TOUCHING * point.size {
+            meeting.way = meeting.way.min(way);
+        }
+        // What is left to facets that are curved.
+        if let Some((gap, closing, _)) = foot
+            && gap > CLOSE * TOUCHING * point.size
+            && closing > SLIDING * largest
+            && gap <= 0.1 * margin
+        {
+            meeting.way = meeting.way.min(gap / closing);
+        }
     }
+    meeting.way = meeting.way.min(stride);
+    meeting
 }
 
 /// Not normalised: out of a straight edge or a triangle.

@@ -3,9 +3,10 @@
 use super::attempt::Attempt;
 use super::cache::Cache;
 use super::candidates::{pair_reference, update_candidates};
+use super::conditions::Conditions;
 use super::definition::Primary;
-use super::directives::Directives;
 use super::evaluation::{Evaluations, Trace};
+use super::faces::integrate_faces;
 use super::parts::Interface;
 use super::scene::Wants;
 use crate::contact::mortar::Merged;
@@ -19,7 +20,7 @@ use crate::math::Vec3;
 #[derive(Debug, Clone, Default)]
 pub struct Memory {
     attempt: Attempt,
-    directives: Directives,
+    conditions: Conditions,
     searched: Vec<Vec3>,
     faces_searched: Vec<Vec3>,
     /// Nodes of faces without a multiplier at the last evaluation.
@@ -32,7 +33,7 @@ pub struct Memory {
 
 crate::keep!(Memory {
     attempt,
-    directives,
+    conditions,
     searched,
     faces_searched,
     merged,
@@ -40,63 +41,59 @@ crate::keep!(Memory {
     paired
 });
 
-impl Interface {
-    /// What it takes along beside its history.
-    pub fn memory(&self) -> Memory {
-        Memory {
-            attempt: self.attempt.clone(),
-            directives: self.directives.clone(),
-            searched: self.cache.search.at().to_vec(),
-            faces_searched: self.cache.faces.at().to_vec(),
-            merged: self.cache.merged.clone(),
-            last: self.cache.last.traces(),
-            paired: self.kinematics.as_dyn().frozen()
-                && !(self.cache.frozen.is_empty() && self.cache.integrals.is_empty()),
-        }
+/// What it takes along beside its history.
+pub fn memory(interface: &Interface) -> Memory {
+    let Cache { last, geometry, .. } = &interface.cache;
+    Memory {
+        attempt: interface.attempt.clone(),
+        conditions: interface.conditions.clone(),
+        searched: geometry.search.at().to_vec(),
+        faces_searched: geometry.faces.at().to_vec(),
+        merged: geometry.merged.nodes.clone(),
+        last: last.traces(),
+        paired: interface.kinematics.as_dyn().frozen()
+            && !(geometry.frozen.is_empty() && geometry.integrals.is_empty()),
     }
+}
 
-    /// Goes on with that, and what can be made again made again. Of an interface whose history is that of the memory, after an accepted increment that ended
-    /// with displacements `u`, those of increments that wait for their interiors too.
-    pub fn remember(&mut self, memory: Memory, u: &[f64]) {
-        let Memory {
-            attempt,
-            directives,
-            searched,
-            faces_searched,
-            merged,
-            last,
-            paired,
-        } = memory;
-        self.attempt = attempt;
-        self.directives = directives;
-        self.cache = Cache {
-            merged,
-            ..Cache::default()
-        };
-        let evaluated = !last.is_empty();
-        self.cache.last = Evaluations::of_traces(last);
-        self.lend(|interface, cache| {
-            if paired {
-                pair_reference(interface, cache);
-                interface.integrate(cache, Wants::default());
-            }
-            if cache.search.at() != searched.as_slice() {
-                cache.search = super::search::Search::default();
-                update_candidates(interface, &mut cache.search, &searched);
-            }
-            // The weights of a mortar's points are those of the last evaluation.
-            if interface.mortar.is_some() && !paired && evaluated {
-                interface.coordinates_into(u, &mut cache.x);
-                interface.integrate(cache, Wants::default());
-            }
-            // After the integrals, which look for facets anew where the last attempt did so far from `u`.
-            if let (Some(mortar), Primary::Facets(facets)) = (&interface.mortar, &interface.primary)
-                && !faces_searched.is_empty()
-                && cache.faces.at() != faces_searched.as_slice()
-            {
-                cache.faces = super::search::FaceSearch::default();
-                cache.faces.renew(&mortar.faces, facets, &faces_searched);
-            }
-        });
+/// Goes on with that, and what can be made again made again. Of an interface whose history is that of the memory, after an accepted increment that ended
+/// with displacements `u`, those of increments that wait for their interiors too.
+pub fn remember(interface: &mut Interface, memory: Memory, u: &[f64]) {
+    let Memory {
+        attempt,
+        conditions,
+        searched,
+        faces_searched,
+        merged,
+        last,
+        paired,
+    } = memory;
+    interface.attempt = attempt;
+    interface.conditions = conditions;
+    interface.cache = Cache::default();
+    let evaluated = !last.is_empty();
+    interface.cache.last = Evaluations::of_traces(last);
+    let (interface, Cache { geometry, .. }) = interface.parts();
+    geometry.merged.nodes = merged;
+    if paired {
+        pair_reference(&interface, geometry);
+        integrate_faces(interface, geometry, Wants::default());
+    }
+    if geometry.search.at() != searched.as_slice() {
+        geometry.search = super::search::Search::default();
+        update_candidates(&interface, &mut geometry.search, &searched);
+    }
+    // The weights of a mortar's points are those of the last evaluation.
+    if interface.mortar.is_some() && !paired && evaluated {
+        interface.coordinates_into(&interface.frames, u, &mut geometry.x);
+        integrate_faces(interface, geometry, Wants::default());
+    }
+    // After the integrals, which look for facets anew where the last attempt did so far from `u`.
+    if let (Some(mortar), Primary::Facets(facets)) = (&interface.mortar, &interface.primary)
+        && !faces_searched.is_empty()
+        && geometry.faces.at() != faces_searched.as_slice()
+    {
+        geometry.faces = super::search::FaceSearch::default();
+        geometry.faces.renew(&mortar.faces, facets, &faces_searched);
     }
 }

@@ -1,7 +1,7 @@
 //! The interface as a force.
 //!
 //! What it is ([`InterfaceDefinition`]) is apart from what it knows: the [`History`] that commits write, the [`Attempt`] at the next increment, the
-//! [`Directives`] of the solver, and the [`Cache`] of what can be made again. An evaluation reads the history and never writes it.
+//! [`Conditions`] of the solver, and the [`Cache`] of what can be made again. An evaluation reads the history and never writes it.
 
 mod active_set;
 mod alone;
@@ -16,10 +16,10 @@ pub(super) mod candidates;
 mod change;
 mod clamped;
 mod commit;
+mod conditions;
 pub(super) mod cone;
 mod curvature;
 pub(super) mod definition;
-mod directives;
 pub(super) mod energies;
 mod evaluate;
 pub(super) mod evaluation;
@@ -31,6 +31,7 @@ pub(super) mod history;
 mod hollows;
 mod impulse;
 pub(super) mod initial;
+pub(super) mod input;
 mod linearise;
 pub(super) mod meeting;
 mod memory;
@@ -44,9 +45,9 @@ mod pass;
 mod respond;
 mod scene;
 pub(super) mod search;
-mod sides;
+pub(super) mod sides;
 mod springs;
-mod stiffness;
+pub(super) mod stiffness;
 mod surrogate;
 pub(super) mod symptoms;
 mod user_laws;
@@ -61,19 +62,27 @@ mod objective;
 pub(super) mod tests;
 
 pub use attempt::Attempt;
+pub use beginning::begin_acting;
 pub use cache::Cache;
-pub use candidate_range::CandidateRange;
-pub use change::Change;
+pub use candidate_range::{CandidateRange, include_all, restrict_to_candidates, spreads};
+pub use change::{Change, change};
+pub use conditions::{Conditions, Steady};
 pub use definition::{InterfaceDefinition, Primary};
-pub use directives::{Directives, Steady};
 pub use ground::{Above, Ground};
 pub use history::History;
 pub use hollows::Hollows;
-pub use impulse::Pressed;
+pub use impulse::{Pressed, pressed_points};
 pub use initial::{CLOSE, GLUE, Initial, Start, Within};
-pub use linearise::LinearPoint;
-pub use meeting::Meeting;
-pub use memory::Memory;
-pub use onset::Tried;
+pub use linearise::{LinearPoint, linearise};
+pub use meeting::{Meeting, meeting};
+pub use memory::{Memory, memory, remember};
+pub use onset::{
+    Tried, add_initial_forces, adopt_light_tractions, adopt_tractions, evaluate_laws,
+    presses_light_points, tried_tractions,
+};
 pub use parts::Interface;
+pub use pass::gaps_at;
+pub use springs::{pull_ties, use_springs};
+pub use stiffness::set_masses;
+pub use user_laws::set_user_laws;
 pub use view::ContactView;

@@ -230,6 +230,7 @@ fn stage<'a>(from: &'a State, at: &'a State) -> Stage<'a> {
         at,
         dt: 1.0,
         rate: None,
+        frames: None,
     }
 }
 
@@ -314,7 +315,7 @@ fn a_pair_that_turns_together_keeps_its_traction() {
                     false => [c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]],
                 };
                 let mut state = accept(&mut interface, &origin, sheared);
-                let before = interface.history.points.clone();
+                let before = interface.state.points.clone();
                 let axis = if dim == 2 {
                     [0.0, 0.0, 1.0]
                 } else {
@@ -344,7 +345,7 @@ fn has_turned(interface: &Interface, before: &[PointHistory], turn: &Mat3, what:
     let most = before.iter().fold(0.0_f64, |m, h| m.max(h.pressure));
     assert!(largest > 0.0 && most > 0.0, "{what}");
     let sticks = interface.laws.slip.as_dyn().sticks();
-    let points = before.iter().zip(&interface.history.points);
+    let points = before.iter().zip(&interface.state.points);
     for ((a, b), e) in points.zip(&interface.cache.last.points) {
         assert!(norm(e.moved) < 1e-14, "{what}: {:e}", norm(e.moved));
         let apart = (a.pressure - b.pressure).abs();
@@ -376,7 +377,7 @@ fn a_point_on_a_drum_that_turns_carries_its_limit_against_its_slip() {
                     false => x,
                 });
                 let x = interface.coordinates(&at.u);
-                let points = interface.points.iter().zip(&interface.history.points);
+                let points = interface.points.iter().zip(&interface.state.points);
                 let mut slid = 0;
                 for ((p, h), e) in points.zip(&interface.cache.last.points) {
                     if h.pressure == 0.0 {
@@ -424,7 +425,7 @@ fn small_sliding_carries_its_limit_in_the_plane_of_the_reference() {
             true => [c * x[0] - s * x[1], s * x[0] + c * x[1], x[2]],
             false => x,
         });
-        let slipping = (interface.history.points.iter()).filter(|h| h.status == Status::Slip);
+        let slipping = (interface.state.points.iter()).filter(|h| h.status == Status::Slip);
         let mut slid = 0;
         for h in slipping {
             slid += 1;

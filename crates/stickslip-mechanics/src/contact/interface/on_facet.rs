@@ -1,11 +1,13 @@
 //! A contact point over a facet.
 
+use super::cache::Cache;
 use super::candidates::closest;
 use super::clamped::clamped_pair;
-use super::evaluate::Met;
-use super::evaluation::{Batch, Evaluation, Evaluations};
-use super::parts::Interface;
-use super::scene::Scene;
+use super::evaluation::{Batch, Evaluation};
+use super::finish::finish;
+use super::input::InterfaceInput;
+use super::respond::respond;
+use super::scene::{Met, Scene};
 use crate::contact::facet_point::{FACET_NODES, FacetPoint, evaluate};
 use crate::contact::kinematics::Pair;
 use crate::contact::pairing::{Anchor, Previous};
@@ -29,162 +31,159 @@ fn material(foot: &FacetPoint, nodes: &[Vec3]) -> Vec3 {
     weighted.fold([0.0; 3], |s, (&x, &n)| add_scaled(s, n, x))
 }
 
-impl Interface {
-    pub(super) fn evaluate_facet(
-        &self,
-        i: usize,
-        facets: &[Facet],
-        scene: &Scene,
-        last: Option<&Evaluation>,
-        anchor: &mut Option<Anchor>,
-        batch: &mut Batch,
-    ) -> Evaluation {
-        let (point, cache) = (&self.points[i], scene.cache);
-        let kinematics = self.kinematics.as_dyn();
-        let mut position = point.position(&cache.x);
-        let mut position_before = point.position(&cache.before);
-        let (f, foot) = match self.facet_of(i, facets, scene, last, anchor) {
-            Ok(found) => found,
-            Err(off) => {
-                return Evaluation {
-                    stranded: off.stranded,
-                    ..Evaluation::open(off.distance)
-                };
-            }
-        };
-        let facet = &facets[f];
-        let mut now = [[0.0; 3]; FACET_NODES];
-        let now = facet.gather(&cache.x, &mut now);
-        let anchor = if kinematics.frozen() {
-            // relative to the material place of the frozen foot
-            let mut then = [[0.0; 3]; FACET_NODES];
-            let then = facet.gather(&cache.before, &mut then);
-            position = add(foot.x, sub(position, material(&foot, now)));
-            position_before = add(foot.x, sub(position_before, material(&foot, then)));
-            &foot
-        } else {
-            match Anchor::at(anchor, f, facet, &cache.before, position_before) {
-                Some(anchor) => anchor,
-                None => return Evaluation::open(dot(sub(position, foot.x), foot.normal)),
-            }
-        };
-        let pair = Pair {
-            dim: self.dofs.dim,
-            weights: &point.weights,
-            point: position,
-            kind: facet.kind,
-            facet: now,
-            foot: &foot,
-            anchor,
-            point_before: position_before,
-            belt: scene.belt_seen(),
-        };
-        kinematics.stencil(&pair, &mut batch.stencil);
-        let largest = now.iter().map(|&x| dot(x, x));
-        batch.stencil.coordinate_scale = largest.fold(dot(position, position), f64::max).sqrt();
-        let met = Met {
-            i,
-            area: point.area,
-            sides: batch.sides.len(),
-        };
-        batch.sides.extend(self.own_weights(i));
-        let theirs = facet.nodes.iter().copied().zip(foot.n.iter().map(|n| -n));
-        batch.sides.extend(theirs);
-        if clamped_pair(self, &batch.sides[met.sides..], foot.normal) {
-            batch.sides.truncate(met.sides);
-            return Evaluation::open(f64::INFINITY);
+pub(super) fn evaluate_facet(
+    i: usize,
+    facets: &[Facet],
+    scene: &Scene,
+    anchor: &mut Option<Anchor>,
+    batch: &mut Batch,
+) -> Evaluation {
+    let interface = scene.interface;
+    let (point, geometry) = (&interface.points[i], scene.geometry);
+    let kinematics = interface.kinematics.as_dyn();
+    let mut position = point.position(&geometry.x);
+    let mut position_before = point.position(&geometry.before);
+    let (f, foot) = match facet_of(i, facets, scene, anchor) {
+        Ok(found) => found,
+        Err(off) => {
+            return Evaluation {
+                stranded: off.stranded,
+                ..Evaluation::open(off.distance)
+            };
         }
-        let mut e = self.respond(met, scene, batch);
-        e.facet = Some(f);
-        e.xi = foot.xi;
-        self.finish(scene, &mut e, batch);
-        e
+    };
+    let facet = &facets[f];
+    let mut now = [[0.0; 3]; FACET_NODES];
+    let now = facet.gather(&geometry.x, &mut now);
+    let anchor = if kinematics.frozen() {
+        // relative to the material place of the frozen foot
+        let mut then = [[0.0; 3]; FACET_NODES];
+        let then = facet.gather(&geometry.before, &mut then);
+        position = add(foot.x, sub(position, material(&foot, now)));
+        position_before = add(foot.x, sub(position_before, material(&foot, then)));
+        &foot
+    } else {
+        match Anchor::at(anchor, f, facet, &geometry.before, position_before) {
+            Some(anchor) => anchor,
+            None => return Evaluation::open(dot(sub(position, foot.x), foot.normal)),
+        }
+    };
+    let pair = Pair {
+        dim: interface.dofs.dim,
+        weights: &point.weights,
+        point: position,
+        kind: facet.kind,
+        facet: now,
+        foot: &foot,
+        anchor,
+        point_before: position_before,
+        belt: scene.belt_seen(),
+    };
+    kinematics.stencil(&pair, &mut batch.stencil);
+    let largest = now.iter().map(|&x| dot(x, x));
+    batch.stencil.coordinate_scale = largest.fold(dot(position, position), f64::max).sqrt();
+    let met = Met {
+        i,
+        area: point.area,
+        sides: batch.sides.len(),
+    };
+    batch.sides.extend(interface.own_weights(i));
+    let theirs = facet.nodes.iter().copied().zip(foot.n.iter().map(|n| -n));
+    batch.sides.extend(theirs);
+    if clamped_pair(&interface, &batch.sides[met.sides..], foot.normal) {
+        batch.sides.truncate(met.sides);
+        return Evaluation::open(f64::INFINITY);
     }
+    let mut e = respond(met, scene, batch);
+    e.facet = Some(f);
+    e.xi = foot.xi;
+    finish(scene, &mut e, batch);
+    e
+}
 
-    /// The second derivatives of gap and slips of a point over a facet, weighted by what it carries; shape `(n, n)`. `None` if it carries nothing.
-    pub(super) fn curvature_of_point(
-        &self,
-        i: usize,
-        facets: &[Facet],
-        evaluations: &Evaluations,
-    ) -> Option<Vec<f64>> {
-        let (point, cache) = (&self.points[i], &self.cache);
-        let e = evaluations.points.get(i)?;
-        let traction = if self.view().unknown() {
-            e.multiplier
-        } else {
-            e.response.traction
-        };
-        if e.slots.rows.is_none() || traction == [0.0; 3] {
-            return None;
-        }
-        let f = e.facet?;
-        let facet = &facets[f];
-        let point_before = point.position(&cache.before);
-        let mut kept = cache.anchors.get(i).cloned().flatten();
-        let mut nodes = [[0.0; 3]; FACET_NODES];
-        let now = facet.gather(&cache.x, &mut nodes);
-        let pair = Pair {
-            dim: self.dofs.dim,
-            weights: &point.weights,
-            point: point.position(&cache.x),
-            kind: facet.kind,
-            facet: now,
-            foot: &evaluate(facet.kind, now, e.xi),
-            anchor: Anchor::at(&mut kept, f, facet, &cache.before, point_before)?,
-            point_before,
-            // The way of the belt curves nothing.
-            belt: [0.0; 3],
-        };
-        let mut out = vec![0.0; pair.dofs() * pair.dofs()];
-        let weights = traction.map(|t| -e.area * t);
-        self.kinematics
-            .as_dyn()
-            .add_hessian(&pair, weights, &mut out);
-        Some(out)
+/// The second derivatives of gap and slips of a point over a facet, weighted by what it carries; shape `(n, n)`. `None` if it carries nothing.
+pub(super) fn curvature_of_point(
+    interface: InterfaceInput,
+    i: usize,
+    facets: &[Facet],
+    cache: &Cache,
+) -> Option<Vec<f64>> {
+    let (point, geometry) = (&interface.points[i], &cache.geometry);
+    let e = cache.last.points.get(i)?;
+    let traction = if interface.unknown() {
+        e.multiplier
+    } else {
+        e.response.traction
+    };
+    if e.slots.rows.is_none() || traction == [0.0; 3] {
+        return None;
     }
+    let f = e.facet?;
+    let facet = &facets[f];
+    let point_before = point.position(&geometry.before);
+    let mut kept = cache.anchors.get(i).cloned().flatten();
+    let mut nodes = [[0.0; 3]; FACET_NODES];
+    let now = facet.gather(&geometry.x, &mut nodes);
+    let pair = Pair {
+        dim: interface.dofs.dim,
+        weights: &point.weights,
+        point: point.position(&geometry.x),
+        kind: facet.kind,
+        facet: now,
+        foot: &evaluate(facet.kind, now, e.xi),
+        anchor: Anchor::at(&mut kept, f, facet, &geometry.before, point_before)?,
+        point_before,
+        // The way of the belt curves nothing.
+        belt: [0.0; 3],
+    };
+    let mut out = vec![0.0; pair.dofs() * pair.dofs()];
+    let weights = traction.map(|t| -e.area * t);
+    interface
+        .kinematics
+        .as_dyn()
+        .add_hessian(&pair, weights, &mut out);
+    Some(out)
+}
 
-    /// The facet of a point and its projection there; where it is if it has none.
-    fn facet_of(
-        &self,
-        i: usize,
-        facets: &[Facet],
-        scene: &Scene,
-        last: Option<&Evaluation>,
-        anchor: &mut Option<Anchor>,
-    ) -> Result<(usize, FacetPoint), Off> {
-        let cache = scene.cache;
-        let found = if self.kinematics.as_dyn().frozen() {
-            cache.frozen[i].ok_or(f64::INFINITY)
-        } else {
-            let facet = last.and_then(|e| e.facet);
-            let facet = facet.or(self.history.points[i].facet);
-            // The projection starts from that at the last accepted state, not from that of the last iteration: what comes out must not
-            // depend on the way to it.
-            let near = facet.and_then(|f| {
-                let before = self.points[i].position(&cache.before);
-                let foot = Anchor::at(anchor, f, &facets[f], &cache.before, before);
-                foot.map(|foot| foot.xi)
-            });
-            let held = self.attempt.flips[i].goes_to_and_fro();
-            let previous = Previous { facet, near, held };
-            let places = (&*cache.x, &*cache.before, &*cache.bounds);
-            closest(&self.definition, i, places, &cache.search, previous)
-        };
-        match found {
-            // At an outer edge there may be no solution with the point on it and none with it off: after the second time it stays
-            // off until the rest has settled, and if it leaves twice again until the next increment.
-            Ok((_, p)) if self.attempt.flips[i].left >= MOST_LEFT => {
-                let away = sub(self.points[i].position(&cache.x), p.x);
-                Err(Off {
-                    distance: norm(away),
-                    stranded: dot(away, p.normal) < 0.0,
-                })
-            }
-            found => found.map_err(|distance| Off {
-                distance,
-                stranded: false,
-            }),
+/// The facet of a point and its projection there; where it is if it has none.
+fn facet_of(
+    i: usize,
+    facets: &[Facet],
+    scene: &Scene,
+    anchor: &mut Option<Anchor>,
+) -> Result<(usize, FacetPoint), Off> {
+    let interface = scene.interface;
+    let geometry = scene.geometry;
+    let found = if interface.kinematics.as_dyn().frozen() {
+        geometry.frozen[i].ok_or(f64::INFINITY)
+    } else {
+        let facet = scene.last.get(i).and_then(|e| e.facet);
+        let facet = facet.or(interface.state.points[i].facet);
+        // The projection starts from that at the last accepted state, not from that of the last iteration: what comes out must not
+        // depend on the way to it.
+        let near = facet.and_then(|f| {
+            let before = interface.points[i].position(&geometry.before);
+            let foot = Anchor::at(anchor, f, &facets[f], &geometry.before, before);
+            foot.map(|foot| foot.xi)
+        });
+        let held = interface.attempt.flips[i].goes_to_and_fro();
+        let previous = Previous { facet, near, held };
+        let places = (&*geometry.x, &*geometry.before, &*geometry.bounds);
+        closest(interface.definition, i, places, &geometry.search, previous)
+    };
+    match found {
+        // At an outer edge there may be no solution with the point on it and none with it off: after the second time it stays
+        // off until the rest has settled, and if it leaves twice again until the next increment.
+        Ok((_, p)) if interface.attempt.flips[i].left >= MOST_LEFT => {
+            let away = sub(interface.points[i].position(&geometry.x), p.x);
+            Err(Off {
+                distance: norm(away),
+                stranded: dot(away, p.normal) < 0.0,
+            })
         }
+        found => found.map_err(|distance| Off {
+            distance,
+            stranded: false,
+        }),
     }
 }

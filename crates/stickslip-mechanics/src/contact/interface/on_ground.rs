@@ -2,10 +2,15 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::definition::Primary;
-use super::ground::{Ground, Under};
+use super::belt::belt_gone;
+use super::cache::Cache;
+use super::definition::{InterfaceDefinition, Primary};
+use super::evaluation::Evaluations;
+use super::ground::Under;
+use super::input::InterfaceInput;
 use super::parts::Interface;
 use super::scene::Scene;
+use super::sides::facet_weights;
 use crate::contact::obstacle::{Place, Pose};
 use crate::math::{Vec3, add, add_scaled, norm, scale, sub};
 use crate::system::Stage;
@@ -13,142 +18,144 @@ use crate::system::Stage;
 /// Parts of a way: one along the distance of two places, and at most so many.
 const MOST: f64 = 4096.0;
 
-impl Interface {
-    /// How far the belt has gone at a time, counted from the first row of its table `[m]`.
-    fn belt_gone(&self, t: f64) -> Vec3 {
-        let (Some(first), Some(last)) = (self.belt.first(), self.belt.last()) else {
-            return [0.0; 3];
-        };
-        let velocity = |row: &[f64; 4]| [row[1], row[2], row[3]];
-        let mut gone = scale((t - first[0]).min(0.0), velocity(first));
-        for pair in self.belt.windows(2) {
-            let dt = t.clamp(pair[0][0], pair[1][0]) - pair[0][0];
-            let mean = add(velocity(&pair[0]), self.belt_velocity(pair[0][0] + dt));
-            gone = add_scaled(gone, 0.5 * dt, mean);
+/// By how much what lies opposite a point has moved, of coordinates of all nodes.
+fn opposite_moved(
+    interface: &InterfaceDefinition,
+    opposite: impl Iterator<Item = (usize, f64)>,
+    x: &[Vec3],
+) -> Vec3 {
+    opposite.fold([0.0; 3], |sum, (n, w)| {
+        add_scaled(sum, w, sub(x[n], interface.reference[n]))
+    })
+}
+
+/// The depth of the ground beneath a point, which lies over the nodes of `sides` `[m]`.
+pub(super) fn ground_depth(i: usize, scene: &Scene, sides: &[(usize, f64)]) -> f64 {
+    let interface = scene.interface;
+    let places = &interface.state.ground.places;
+    let (Some(ground), false) = (&interface.hollows.ground, places.is_empty()) else {
+        return 0.0;
+    };
+    let x = &scene.geometry.x;
+    let theirs = sides.iter().filter(|(n, _)| *n < interface.primary_nodes);
+    let moved = opposite_moved(&interface, theirs.map(|&(n, w)| (n, -w)), x);
+    let under = Under {
+        pose: scene.poses.map(|(pose, _)| *pose),
+        moved: add(moved, belt_gone(interface, scene.t)),
+    };
+    let beneath = ground.beneath(i, x, &under);
+    beneath
+        .map(|(place, w)| w * places.get(&place).copied().unwrap_or(0.0))
+        .sum()
+}
+
+/// Takes from the ground what points have worn off it over an increment, along their ways.
+pub(super) fn wear_ground(interface: &mut Interface, volumes: &[f64], stage: &Stage) {
+    let (input, Cache { last, .. }) = interface.parts();
+    let Some(ground) = &input.definition.hollows.ground else {
+        return;
+    };
+    let ways = last.points.iter().zip(volumes);
+    let ways = ways.filter(|(_, v)| **v != 0.0).map(|(e, _)| norm(e.moved));
+    let longest = ways.fold(0.0, f64::max);
+    let parts = (longest / ground.chart.spacing()).ceil().clamp(1.0, MOST);
+    let [from, to] = [&stage.from.u, &stage.at.u].map(|u| input.coordinates(u));
+    let mut lost: HashMap<Place, f64> = HashMap::new();
+    for part in 0..parts as usize {
+        let part = (part as f64 + 0.5) / parts;
+        let between = |(a, b): (&Vec3, &Vec3)| add_scaled(scale(1.0 - part, *a), part, *b);
+        let x: Vec<Vec3> = from.iter().zip(&to).map(between).collect();
+        let t = stage.from.t + part * (stage.at.t - stage.from.t);
+        let (pose, gone) = (pose(&input, t), belt_gone(input, t));
+        for (i, volume) in volumes.iter().enumerate().filter(|(_, v)| **v != 0.0) {
+            let moved = add(
+                gone,
+                opposite_moved(&input, facet_weights(input.primary_nodes, last, i), &x),
+            );
+            let under = Under { pose, moved };
+            for (place, w) in ground.beneath(i, &x, &under).filter(|(_, w)| *w != 0.0) {
+                *lost.entry(place).or_default() += w * volume / parts;
+            }
         }
-        add_scaled(gone, (t - last[0]).max(0.0), velocity(last))
     }
-
-    /// By how much what lies opposite a point has moved, of coordinates of all nodes.
-    fn opposite_moved(&self, opposite: impl Iterator<Item = (usize, f64)>, x: &[Vec3]) -> Vec3 {
-        opposite.fold([0.0; 3], |sum, (n, w)| {
-            add_scaled(sum, w, sub(x[n], self.reference[n]))
-        })
+    let gained: BTreeMap<Place, f64> = (lost.into_iter())
+        .map(|(place, volume)| (place, volume / ground.chart.area(place, ground.extent)))
+        .collect();
+    let felt = feels(input, last, &gained, volumes, (&to, stage.at.t));
+    let depths = &mut interface.state.ground;
+    for (place, depth) in gained {
+        *depths.places.entry(place).or_default() += depth;
     }
+    depths.taken.resize(volumes.len(), 0.0);
+    for (taken, volume) in depths.taken.iter_mut().zip(volumes) {
+        *taken += volume;
+    }
+    depths.felt = felt;
+    show_ground(interface, stage.at.t);
+}
 
-    /// The depth of the ground beneath a point, which lies over the nodes of `sides` `[m]`.
-    pub(super) fn ground_depth(&self, i: usize, scene: &Scene, sides: &[(usize, f64)]) -> f64 {
-        let places = &self.history.ground.places;
-        let (Some(ground), false) = (&self.hollows.ground, places.is_empty()) else {
-            return 0.0;
-        };
-        let x = &scene.cache.x;
-        let theirs = sides.iter().filter(|(n, _)| *n < self.primary_nodes);
-        let moved = self.opposite_moved(theirs.map(|&(n, w)| (n, -w)), x);
-        let under = Under {
-            pose: scene.poses.map(|(pose, _)| *pose),
-            moved: add(moved, self.belt_gone(scene.t)),
-        };
+/// What lies open beneath each point at the end of an increment in which the ground `gained` depths, over what the point has taken per area: one where it stays on its track, little where
+/// it comes on matter that others have not worn.
+fn feels(
+    interface: InterfaceInput,
+    last: &Evaluations,
+    gained: &BTreeMap<Place, f64>,
+    volumes: &[f64],
+    (x, t): (&[Vec3], f64),
+) -> Vec<f64> {
+    let Some(ground) = &interface.hollows.ground else {
+        return Vec::new();
+    };
+    let (pose, gone) = (pose(&interface, t), belt_gone(interface, t));
+    let feels = |(i, volume): (usize, &f64)| {
+        let own = volume / last.points[i].area;
+        if !(own.is_finite() && own > 0.0) {
+            return 1.0;
+        }
+        let moved = add(
+            gone,
+            opposite_moved(
+                &interface,
+                facet_weights(interface.primary_nodes, last, i),
+                x,
+            ),
+        );
+        let under = Under { pose, moved };
         let beneath = ground.beneath(i, x, &under);
-        beneath
+        let here = beneath.map(|(place, w)| w * gained.get(&place).copied().unwrap_or(0.0));
+        (here.sum::<f64>() / own).clamp(0.0, 1.0)
+    };
+    volumes.iter().enumerate().map(feels).collect()
+}
+
+/// Where an obstacle is.
+fn pose(interface: &InterfaceDefinition, t: f64) -> Option<Pose> {
+    match &interface.primary {
+        Primary::Rigid(_, motion) => Some(motion.pose(t)),
+        Primary::Facets(_) => None,
+    }
+}
+
+/// Gives the nodes of the primary the depth of the matter that is there now.
+fn show_ground(interface: &mut Interface, t: f64) {
+    let (Some(ground), false) = (&interface.hollows.ground, interface.rigid()) else {
+        return;
+    };
+    let gone = belt_gone(interface.input(), t);
+    let places = &interface.state.ground.places;
+    let depth = |x: &Vec3| -> f64 {
+        let around = ground.chart.around(sub(*x, gone)).into_iter();
+        around
             .map(|(place, w)| w * places.get(&place).copied().unwrap_or(0.0))
             .sum()
-    }
-
-    /// Takes from the ground what points have worn off it over an increment, along their ways.
-    pub(super) fn wear_ground(&mut self, volumes: &[f64], stage: &Stage) {
-        let Some(ground) = &self.definition.hollows.ground else {
-            return;
-        };
-        let ways = self.cache.last.points.iter().zip(volumes);
-        let ways = ways.filter(|(_, v)| **v != 0.0).map(|(e, _)| norm(e.moved));
-        let longest = ways.fold(0.0, f64::max);
-        let parts = (longest / ground.chart.spacing()).ceil().clamp(1.0, MOST);
-        let [from, to] = [&stage.from.u, &stage.at.u].map(|u| self.coordinates(u));
-        let mut lost: HashMap<Place, f64> = HashMap::new();
-        for part in 0..parts as usize {
-            let part = (part as f64 + 0.5) / parts;
-            let between = |(a, b): (&Vec3, &Vec3)| add_scaled(scale(1.0 - part, *a), part, *b);
-            let x: Vec<Vec3> = from.iter().zip(&to).map(between).collect();
-            let t = stage.from.t + part * (stage.at.t - stage.from.t);
-            let (pose, gone) = (self.pose(t), self.belt_gone(t));
-            for (i, volume) in volumes.iter().enumerate().filter(|(_, v)| **v != 0.0) {
-                let moved = add(gone, self.opposite_moved(self.facet_weights(i), &x));
-                let under = Under { pose, moved };
-                for (place, w) in ground.beneath(i, &x, &under).filter(|(_, w)| *w != 0.0) {
-                    *lost.entry(place).or_default() += w * volume / parts;
-                }
-            }
-        }
-        let gained: BTreeMap<Place, f64> = (lost.into_iter())
-            .map(|(place, volume)| (place, volume / ground.chart.area(place, ground.extent)))
-            .collect();
-        let felt = self.feels(ground, &gained, volumes, (&to, stage.at.t));
-        let depths = &mut self.history.ground;
-        for (place, depth) in gained {
-            *depths.places.entry(place).or_default() += depth;
-        }
-        depths.taken.resize(volumes.len(), 0.0);
-        for (taken, volume) in depths.taken.iter_mut().zip(volumes) {
-            *taken += volume;
-        }
-        depths.felt = felt;
-        self.show_ground(stage.at.t);
-    }
-
-    /// What lies open beneath each point at the end of an increment in which the ground `gained` depths, over what the point has taken per area: one where it stays on its track, little where
-    /// it comes on matter that others have not worn.
-    fn feels(
-        &self,
-        ground: &Ground,
-        gained: &BTreeMap<Place, f64>,
-        volumes: &[f64],
-        (x, t): (&[Vec3], f64),
-    ) -> Vec<f64> {
-        let (pose, gone) = (self.pose(t), self.belt_gone(t));
-        let feels = |(i, volume): (usize, &f64)| {
-            let own = volume / self.cache.last.points[i].area;
-            if !(own.is_finite() && own > 0.0) {
-                return 1.0;
-            }
-            let moved = add(gone, self.opposite_moved(self.facet_weights(i), x));
-            let under = Under { pose, moved };
-            let beneath = ground.beneath(i, x, &under);
-            let here = beneath.map(|(place, w)| w * gained.get(&place).copied().unwrap_or(0.0));
-            (here.sum::<f64>() / own).clamp(0.0, 1.0)
-        };
-        volumes.iter().enumerate().map(feels).collect()
-    }
-
-    /// Where an obstacle is.
-    fn pose(&self, t: f64) -> Option<Pose> {
-        match &self.primary {
-            Primary::Rigid(_, motion) => Some(motion.pose(t)),
-            Primary::Facets(_) => None,
-        }
-    }
-
-    /// Gives the nodes of the primary the depth of the matter that is there now.
-    fn show_ground(&mut self, t: f64) {
-        let (Some(ground), false) = (&self.definition.hollows.ground, self.rigid()) else {
-            return;
-        };
-        let gone = self.belt_gone(t);
-        let places = &self.history.ground.places;
-        let depth = |x: &Vec3| -> f64 {
-            let around = ground.chart.around(sub(*x, gone)).into_iter();
-            around
-                .map(|(place, w)| w * places.get(&place).copied().unwrap_or(0.0))
-                .sum()
-        };
-        let shown: Vec<f64> = self.reference[..self.primary_nodes]
-            .iter()
-            .map(depth)
-            .collect();
-        let traces = &mut self.history.traces;
-        traces.resize(self.definition.nodes.len(), [0.0; 2]);
-        for (trace, depth) in traces.iter_mut().zip(shown) {
-            trace[1] = depth;
-        }
+    };
+    let shown: Vec<f64> = interface.reference[..interface.primary_nodes]
+        .iter()
+        .map(depth)
+        .collect();
+    let traces = &mut interface.state.traces;
+    traces.resize(interface.definition.nodes.len(), [0.0; 2]);
+    for (trace, depth) in traces.iter_mut().zip(shown) {
+        trace[1] = depth;
     }
 }

@@ -1,9 +1,9 @@
 //! What acts in the first instant of a motion.
 
 use super::energies::initial_energy;
-use super::evaluation::Evaluations;
 use super::initial::TOUCHING;
 use super::parts::Interface;
+use super::pass::evaluate_all;
 use super::scene::Wants;
 use crate::contact::response::Status;
 use crate::math::Vec3;
@@ -13,104 +13,111 @@ use crate::system::{Force, Stage, StepFailure};
 #[derive(Debug, Clone, Default)]
 pub struct Tried(Vec<(Status, f64, Vec3)>);
 
-impl Interface {
-    /// Adds the forces that the laws ask for at `stage.at` to the residual, before anything is solved and without touching the
-    /// history: for the acceleration at the start. What overlap stores then `[J]`.
-    ///
-    /// Multipliers against penetration have no force before something is solved, and nothing is stored in them: overlap is pressed out in the first
-    /// increment, whose energy is told apart by the gaps that are noted here.
-    pub fn add_initial(&mut self, stage: &Stage, residual: &mut [f64]) -> Result<f64, StepFailure> {
-        if !self.schedule.active(stage.at.t) {
-            return Ok(0.0);
-        }
-        let evaluations = self.evaluate_initial(stage);
-        if self.view().unknown() && self.laws.needs_normal_stiffness() {
-            let points = evaluations.points.iter();
-            let overlap = points.map(|e| if e.over { e.gap.min(0.0) } else { 0.0 });
-            self.history.start.overlap = match self.history.acting {
-                true => Vec::new(),
-                false => overlap.collect(),
-            };
-            self.cache.trial = evaluations;
-            return Ok(0.0);
-        }
-        for (i, e) in evaluations.points.iter().enumerate() {
-            let batch = evaluations.batch(i);
-            let force = batch.force(e).unwrap_or_default();
-            for (&dof, r) in batch.dofs(e).iter().zip(force) {
-                residual[dof] += r;
-            }
-        }
-        self.cache.trial = evaluations;
-        let stored = initial_energy(self.view(), &self.cache.trial.points);
-        if self.history.springs {
-            // How stiff and viscous what touches is bounds explicit increments from the first on.
-            std::mem::swap(&mut self.cache.last, &mut self.cache.trial);
-        }
-        Ok(stored)
+/// Adds the forces that the laws ask for at `stage.at` to the residual, before anything is solved and without touching the
+/// history: for the acceleration at the start. What overlap stores then `[J]`.
+///
+/// Multipliers against penetration have no force before something is solved, and nothing is stored in them: overlap is pressed out in the first
+/// increment, whose energy is told apart by the gaps that are noted here.
+pub fn add_initial_forces(
+    interface: &mut Interface,
+    stage: &Stage,
+    residual: &mut [f64],
+) -> Result<f64, StepFailure> {
+    if !interface.schedule.active(stage.at.t) {
+        return Ok(0.0);
     }
-
-    /// Takes what laws say at `stage.at` for the last evaluation: how stiff and viscous they are there bounds explicit increments.
-    pub fn look(&mut self, stage: &Stage) {
-        self.cache.last = match self.schedule.active(stage.at.t) {
-            true => self.evaluate_initial(stage),
-            false => Evaluations::default(),
+    evaluate_initial(interface, stage);
+    let evaluations = &interface.cache.trial;
+    if interface.view().unknown() && interface.laws.needs_normal_stiffness() {
+        let points = evaluations.points.iter();
+        let overlap = points.map(|e| if e.over { e.gap.min(0.0) } else { 0.0 });
+        interface.state.start.overlap = match interface.state.acting {
+            true => Vec::new(),
+            false => overlap.collect(),
         };
+        return Ok(0.0);
     }
-
-    /// What laws say before anything is solved.
-    fn evaluate_initial(&mut self, stage: &Stage) -> Evaluations {
-        self.prepare(stage);
-        self.begin();
-        let wants = Wants {
-            initial: true,
-            ..Wants::default()
-        };
-        self.evaluate_all(stage, wants)
-    }
-
-    /// Whether points without mass overlap what they meet at `stage.at`, before the interface has ever acted.
-    pub fn presses_light_points(&mut self, stage: &Stage) -> bool {
-        if !self.schedule.active(stage.at.t) || self.history.acting || self.laws.tied {
-            return false;
-        }
-        let evaluations = self.evaluate_initial(stage);
-        let masses = self.directives.inertia.iter().zip(&self.points);
-        let mut points = evaluations.points.iter().zip(masses);
-        points.any(|(e, (mass, point))| *mass == 0.0 && e.over && e.gap < -TOUCHING * point.size)
-    }
-
-    /// Takes the tractions of an attempt as those from which points without mass go on: what presses them has pressed them before the motion begins.
-    pub fn adopt_light(&mut self, tried: &Tried) {
-        let masses = self.directives.inertia.iter();
-        let all = self.history.points.iter_mut().zip(&tried.0).zip(masses);
-        for ((history, &(status, pressure, shear)), _) in all.filter(|(_, m)| **m == 0.0) {
-            history.status = status;
-            history.pressure = pressure;
-            history.shear = shear;
+    for (i, e) in evaluations.points.iter().enumerate() {
+        let batch = evaluations.batch(i);
+        let force = batch.force(e).unwrap_or_default();
+        for (&dof, r) in batch.dofs(e).iter().zip(force) {
+            residual[dof] += r;
         }
     }
-
-    /// The tractions of the present attempt.
-    pub fn tried(&self) -> Tried {
-        let points = self.cache.last.points.iter();
-        let traction = points.map(|e| {
-            let r = &e.response;
-            (r.status, r.traction[0], e.along(&e.frames.now))
-        });
-        Tried(traction.collect())
+    let stored = initial_energy(interface.view(), &evaluations.points);
+    if interface.state.springs {
+        // How stiff and viscous what touches is bounds explicit increments from the first on.
+        interface.cache.take_trial();
     }
+    Ok(stored)
+}
 
-    /// Takes the tractions of an attempt as those of the last accepted state: what acts from the first instant of a motion. Where a point sticks, what the
-    /// others carry is only being built up, and all is left as it is.
-    pub fn adopt(&mut self, tried: &Tried) {
-        if tried.0.iter().any(|(status, ..)| *status == Status::Stick) {
-            return;
-        }
-        let all = self.history.points.iter_mut().zip(&tried.0);
-        for (history, &(_, pressure, shear)) in all.filter(|(_, t)| t.0 == Status::Slip) {
-            history.pressure = pressure;
-            history.shear = shear;
-        }
+/// Takes what laws say at `stage.at` for the last evaluation: how stiff and viscous they are there bounds explicit increments.
+pub fn evaluate_laws(interface: &mut Interface, stage: &Stage) {
+    interface.cache.last.points.clear();
+    if interface.schedule.active(stage.at.t) {
+        evaluate_initial(interface, stage);
+        interface.cache.take_trial();
+    }
+}
+
+/// What laws say before anything is solved.
+fn evaluate_initial(interface: &mut Interface, stage: &Stage) {
+    interface.prepare(stage);
+    interface.begin();
+    let wants = Wants {
+        initial: true,
+        ..Wants::default()
+    };
+    let (input, cache) = interface.parts();
+    evaluate_all(input, cache, stage, wants);
+}
+
+/// Whether points without mass overlap what they meet at `stage.at`, before the interface has ever acted.
+pub fn presses_light_points(interface: &mut Interface, stage: &Stage) -> bool {
+    if !interface.schedule.active(stage.at.t) || interface.state.acting || interface.laws.tied {
+        return false;
+    }
+    evaluate_initial(interface, stage);
+    let masses = interface.conditions.inertia.iter().zip(&interface.points);
+    let mut points = interface.cache.trial.points.iter().zip(masses);
+    let presses =
+        points.any(|(e, (mass, point))| *mass == 0.0 && e.over && e.gap < -TOUCHING * point.size);
+    // Nobody is told of it.
+    interface.cache.trial.points.clear();
+    presses
+}
+
+/// Takes the tractions of an attempt as those from which points without mass go on: what presses them has pressed them before the motion begins.
+pub fn adopt_light_tractions(interface: &mut Interface, tried: &Tried) {
+    let masses = interface.conditions.inertia.iter();
+    let all = interface.state.points.iter_mut().zip(&tried.0).zip(masses);
+    for ((history, &(status, pressure, shear)), _) in all.filter(|(_, m)| **m == 0.0) {
+        history.status = status;
+        history.pressure = pressure;
+        history.shear = shear;
+    }
+}
+
+/// The tractions of the present attempt.
+pub fn tried_tractions(interface: &Interface) -> Tried {
+    let points = interface.cache.last.points.iter();
+    let traction = points.map(|e| {
+        let r = &e.response;
+        (r.status, r.traction[0], e.along(&e.frames.now))
+    });
+    Tried(traction.collect())
+}
+
+/// Takes the tractions of an attempt as those of the last accepted state: what acts from the first instant of a motion. Where a point sticks, what the
+/// others carry is only being built up, and all is left as it is.
+pub fn adopt_tractions(interface: &mut Interface, tried: &Tried) {
+    if tried.0.iter().any(|(status, ..)| *status == Status::Stick) {
+        return;
+    }
+    let all = interface.state.points.iter_mut().zip(&tried.0);
+    for (history, &(_, pressure, shear)) in all.filter(|(_, t)| t.0 == Status::Slip) {
+        history.pressure = pressure;
+        history.shear = shear;
     }
 }

@@ -2,9 +2,10 @@
 
 use super::attempt::Attempt;
 use super::cache::Cache;
+use super::conditions::Conditions;
 use super::definition::InterfaceDefinition;
-use super::directives::Directives;
 use super::history::History;
+use super::input::InterfaceInput;
 use super::view::ContactView;
 
 /// An interface, and what it knows.
@@ -13,11 +14,11 @@ pub struct Interface {
     /// What it is.
     pub definition: InterfaceDefinition,
     /// What accepted increments have left; all that a checkpoint has to hold.
-    pub history: History,
+    pub state: History,
     /// The attempt at the next one.
     pub attempt: Attempt,
-    /// How it is to act at present.
-    pub directives: Directives,
+    /// What holds in the attempt.
+    pub conditions: Conditions,
     /// What can be made again.
     pub cache: Cache,
 }
@@ -35,9 +36,9 @@ impl Interface {
     pub fn new(definition: InterfaceDefinition) -> Self {
         Interface {
             definition,
-            history: History::default(),
+            state: History::default(),
             attempt: Attempt::default(),
-            directives: Directives::default(),
+            conditions: Conditions::default(),
             cache: Cache::default(),
         }
     }
@@ -46,31 +47,45 @@ impl Interface {
     pub fn view(&self) -> ContactView<'_> {
         ContactView {
             definition: &self.definition,
-            state: &self.history,
+            state: &self.state,
         }
     }
 
+    /// It as evaluations see it.
+    pub(in crate::contact) fn input(&self) -> InterfaceInput<'_> {
+        InterfaceInput {
+            contact: self.view(),
+            attempt: &self.attempt,
+            conditions: &self.conditions,
+        }
+    }
+
+    /// It as evaluations see it, and what they work with.
+    pub(super) fn parts(&mut self) -> (InterfaceInput<'_>, &mut Cache) {
+        let contact = ContactView {
+            definition: &self.definition,
+            state: &self.state,
+        };
+        let input = InterfaceInput {
+            contact,
+            attempt: &self.attempt,
+            conditions: &self.conditions,
+        };
+        (input, &mut self.cache)
+    }
+
     /// Makes room for all points, and begins an attempt if there is none.
-    pub(in crate::contact) fn ready(&mut self) {
-        self.history.fit(self.points.len());
-        if self.attempt.multipliers.len() != self.points.len() {
+    pub(super) fn ready(&mut self) {
+        self.state.fit(self.definition.points.len());
+        if self.attempt.multipliers.len() != self.definition.points.len() {
             self.begin_attempt();
         }
     }
 
     /// An attempt from the committed history.
-    pub(in crate::contact) fn begin_attempt(&mut self) {
-        let accepted = self.accepted();
-        let before = std::mem::take(&mut self.attempt);
-        self.attempt = before.next(&self.history.points, accepted);
+    pub(super) fn begin_attempt(&mut self) {
+        let accepted = self.view().accepted_gap();
+        self.attempt.restart(&self.state.points, accepted);
         self.cache.last.points.clear();
-    }
-
-    /// Does something with what can be made again, which is lent out for that: the rest stays as it is.
-    pub(in crate::contact) fn lend<T>(&mut self, work: impl FnOnce(&Self, &mut Cache) -> T) -> T {
-        let mut cache = std::mem::take(&mut self.cache);
-        let done = work(self, &mut cache);
-        self.cache = cache;
-        done
     }
 }

@@ -1,108 +1,104 @@
 //! An evaluation of all points of an interface.
 
+use super::belt::{belt_path, belt_velocity, poses};
+use super::cache::{Cache, Geometry};
 use super::candidates::enclose;
-use rayon::prelude::*;
-
-use super::cache::Cache;
+use super::evaluate::evaluate_points;
 use super::evaluation::{Batch, CHUNK, Evaluation, Evaluations};
+use super::faces::integrate_faces;
+use super::input::InterfaceInput;
 use super::parts::Interface;
 use super::scene::{LawQuery, Scene, Wants};
-use crate::contact::pairing::Anchor;
+use super::user_laws::ask;
 use crate::math::scale;
 use crate::system::{Force, InSpace, Stage};
 
-impl Interface {
-    /// Evaluates all points, in the memory of `trial`: whoever asks puts that back.
-    pub(super) fn evaluate_all(&mut self, stage: &Stage, wants: Wants) -> Evaluations {
-        self.lend(|interface, cache| interface.evaluate_with(cache, stage, wants))
-    }
+/// Evaluates all points; what comes out is the trial of the cache.
+pub(super) fn evaluate_all<'a>(
+    interface: InterfaceInput,
+    cache: &'a mut Cache,
+    stage: &Stage,
+    wants: Wants,
+) -> &'a Evaluations {
+    let Cache {
+        last,
+        trial,
+        anchors,
+        geometry,
+        ..
+    } = cache;
+    move_to(interface, geometry, stage, wants);
+    let count = interface.points.len();
+    anchors.resize(count, None);
+    trial.points.resize(count, Evaluation::default());
+    trial
+        .batches
+        .resize_with(count.div_ceil(CHUNK), Batch::default);
+    let poses = poses(&interface, stage);
+    let scene = Scene {
+        interface,
+        geometry,
+        last: &last.points,
+        poses: poses.as_ref(),
+        belt: belt_path(interface, stage),
+        belt_end: scale(stage.dt, belt_velocity(interface, stage.at.t)),
+        rate: stage.rate,
+        dt: stage.dt,
+        t: stage.at.t,
+        wants,
+        answers: &[],
+        query: LawQuery::Nothing,
+    };
+    let answers = ask(&scene, trial, anchors);
+    let scene = Scene {
+        answers: &answers,
+        ..scene
+    };
+    evaluate_points(&scene, trial, anchors);
+    trial
+}
 
-    fn evaluate_with(&self, cache: &mut Cache, stage: &Stage, wants: Wants) -> Evaluations {
-        self.coordinates_into(&stage.at.u, &mut cache.x);
-        self.coordinates_into(&stage.from.u, &mut cache.before);
-        if !self.frames.is_empty() {
-            let places = self.nodes.iter().copied().zip(cache.x.iter().copied());
-            cache.in_space = InSpace::new(&self.frames, self.frame_poses(&stage.at.u), places);
-        } else if !cache.in_space.is_empty() {
-            cache.in_space = InSpace::default();
-        }
-        if self.mortar.is_some() {
-            self.integrate(cache, wants);
-        } else if !self.kinematics.as_dyn().frozen() {
-            enclose(&self.definition, &cache.x, &mut cache.bounds);
-        }
-        let mut out = std::mem::take(&mut cache.trial);
-        let mut anchors = std::mem::take(&mut cache.anchors);
-        let count = self.points.len();
-        anchors.resize(count, None);
-        out.points.resize(count, Evaluation::default());
-        out.batches
-            .resize_with(count.div_ceil(CHUNK), Batch::default);
-        let poses = self.poses(stage);
-        let scene = Scene {
-            cache,
-            poses: poses.as_ref(),
-            belt: self.belt_path(stage),
-            belt_end: scale(stage.dt, self.belt_velocity(stage.at.t)),
-            rate: stage.rate,
-            dt: stage.dt,
-            t: stage.at.t,
-            wants,
-            answers: &[],
-            query: LawQuery::Nothing,
-        };
-        let answers = self.ask(&scene, &mut out, &mut anchors);
-        let scene = Scene {
-            answers: &answers,
-            ..scene
-        };
-        self.evaluate_points(&scene, &mut out, &mut anchors);
-        cache.anchors = anchors;
-        out
+/// Finds out where the surfaces are at a stage, and what lies opposite.
+fn move_to(interface: InterfaceInput, geometry: &mut Geometry, stage: &Stage, wants: Wants) {
+    let frames = interface.frames_at(stage);
+    interface.coordinates_into(frames, &stage.at.u, &mut geometry.x);
+    interface.coordinates_into(frames, &stage.from.u, &mut geometry.before);
+    if !frames.is_empty() {
+        let places = (interface.nodes.iter().copied()).zip(geometry.x.iter().copied());
+        let poses = interface.poses_of(frames, &stage.at.u);
+        geometry.in_space = InSpace::new(frames, poses, places);
+    } else if !geometry.in_space.is_empty() {
+        geometry.in_space = InSpace::default();
     }
+    if interface.mortar.is_some() {
+        integrate_faces(interface, geometry, wants);
+    } else if !interface.kinematics.as_dyn().frozen() {
+        enclose(interface.definition, &geometry.x, &mut geometry.bounds);
+    }
+}
 
-    pub(super) fn evaluate_points(
-        &self,
-        scene: &Scene,
-        out: &mut Evaluations,
-        anchors: &mut [Option<Anchor>],
-    ) {
-        let last = &scene.cache.last.points;
-        out.points
-            .par_chunks_mut(CHUNK)
-            .zip(out.batches.par_iter_mut())
-            .zip(anchors.par_chunks_mut(CHUNK))
-            .enumerate()
-            .for_each(|(chunk, ((points, batch), anchors))| {
-                batch.clear();
-                for (k, (e, anchor)) in points.iter_mut().zip(anchors).enumerate() {
-                    let i = chunk * CHUNK + k;
-                    *e = self.evaluate(i, scene, last.get(i), anchor, batch);
-                }
-            });
-    }
+/// Gaps of all points at a stage, without touching the history; infinite where nothing lies opposite.
+pub fn gaps_at(interface: &mut Interface, stage: &Stage) -> Vec<f64> {
+    gaps_with(interface, stage, Wants::default())
+}
 
-    /// Gaps of all points at a stage, without touching the history; infinite where nothing lies opposite.
-    pub fn gaps_at(&mut self, stage: &Stage) -> Vec<f64> {
-        self.gaps_with(stage, Wants::default())
-    }
+/// The same of all points, those too that do not take part.
+pub(super) fn all_gaps_at(interface: &mut Interface, stage: &Stage) -> Vec<f64> {
+    let wants = Wants {
+        everywhere: true,
+        ..Wants::default()
+    };
+    gaps_with(interface, stage, wants)
+}
 
-    /// The same of all points, those too that do not take part.
-    pub(super) fn all_gaps_at(&mut self, stage: &Stage) -> Vec<f64> {
-        let wants = Wants {
-            everywhere: true,
-            ..Wants::default()
-        };
-        self.gaps_with(stage, wants)
-    }
-
-    fn gaps_with(&mut self, stage: &Stage, wants: Wants) -> Vec<f64> {
-        self.prepare(stage);
-        self.begin();
-        let evaluations = self.evaluate_all(stage, wants);
-        let gap = |e: &Evaluation| if e.over { e.gap } else { f64::INFINITY };
-        let gaps = evaluations.points.iter().map(gap).collect();
-        self.cache.trial = evaluations;
-        gaps
-    }
+fn gaps_with(interface: &mut Interface, stage: &Stage, wants: Wants) -> Vec<f64> {
+    interface.prepare(stage);
+    interface.begin();
+    let (input, cache) = interface.parts();
+    let evaluations = evaluate_all(input, cache, stage, wants);
+    evaluations
+        .points
+        .iter()
+        .map(Evaluation::known_gap)
+        .collect()
 }

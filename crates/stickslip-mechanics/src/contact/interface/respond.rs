@@ -1,11 +1,12 @@
 //! What the laws answer at a point.
 
-use super::evaluate::Met;
+use super::belt::steady_velocity;
 use super::evaluation::{Batch, Evaluation, Frames, Question, Slots, components};
 use super::initial::TOUCHING;
-use super::parts::Interface;
-use super::scene::{LawQuery, Scene};
-use super::worn::length;
+use super::input::InterfaceInput;
+use super::scene::{LawQuery, Met, Scene};
+use super::stiffness::{own_stiffness, spring, tangential_stiffness};
+use super::worn::{hollow, length, softness, wearing};
 use crate::contact::enforcement::Multipliers;
 use crate::contact::kinematics::{Moving, Stencil, carried_over, rate_slip};
 use crate::contact::law::friction::FrictionPoint;
@@ -18,240 +19,245 @@ const FIRST_SLACK: f64 = 1e-2;
 /// Part of the velocity of a surface that rounding may leave along it.
 const AT_REST: f64 = 1e-12;
 
-impl Interface {
-    /// Laws at the stencil of the batch.
-    pub(super) fn respond(&self, met: Met, scene: &Scene, batch: &mut Batch) -> Evaluation {
-        let i = met.i;
-        if let Some(glued) = self.history.start.glued.get(i) {
-            batch.stencil.gap -= glued;
-        }
-        let hollow = self.hollow(i, scene, &batch.sides[met.sides..]);
-        batch.stencil.gap += hollow - self.view().offset_at_start(i, scene.t);
-        let slots = self.claim(met, batch);
-        let stencil = &batch.stencil;
-        let belt = stencil.frame.map(|e| dot(e, scene.belt));
-        let slid = [stencil.slip[0] - belt[0], stencil.slip[1] - belt[1]];
-        let stiffness = self.stiffnesses(i, stencil, scene);
-        let before = &self.history.points[i];
-        let mut at = LawInput {
-            dt: scene.dt,
-            stiffness,
-            kept: self.kept(i, stencil),
-            slip: Sliding {
-                seen: slid,
-                path: None,
-                sprung: self.history.springs,
-                steady: false,
-                slack: match scene.wants.tangent && self.attempt.flips[i].last[0].is_none() {
-                    true => FIRST_SLACK,
-                    false => 0.0,
-                },
-            },
-            rest: self.rest(i),
-            // A law of the program is asked once, before it is known how much of the way is slid.
-            worn: match scene.query {
-                LawQuery::Nothing => Worn::default(),
-                _ if scene.wants.pressed => Worn::default(),
-                _ => {
-                    let path = length(stencil.frame_before, slid);
-                    self.softness(i, (path, scene.dt), before.pressure)
-                }
-            },
-            closing: self.closing(i, stencil.gap, scene.dt),
-            sticking: before.status != Status::Slip,
-            pressed: scene.wants.pressed,
-            answers: scene.answers.get(i).copied().unwrap_or_default(),
-        };
-        self.see_rate(scene, &slots, batch, &mut at);
-        self.see_steady(i, scene, batch, &mut at);
-        let stencil = &batch.stencil;
-        if scene.query != LawQuery::Nothing {
-            let friction = match scene.query {
-                LawQuery::Friction => self.laws.question(stencil, &at),
-                _ => Some(FrictionPoint::default()),
-            };
-            batch.questions.extend(friction.map(|friction| Question {
-                point: i,
-                gap: stencil.gap - at.rest,
-                friction,
-            }));
-            return Evaluation::default();
-        }
-        let [e, f] = stencil.frame_before;
-        let moved = add_scaled(scale(slid[0], e), slid[1], f);
-        let off = match self.view().holds_exactly() {
-            true => [stencil.gap - at.rest, slid[0], slid[1]],
-            false => [0.0; 3],
-        };
-        let response = self.wearing(i, stencil, moved, &mut at);
-        let worn = at.worn.depth(response.traction[0]);
-        Evaluation {
-            slots,
-            viscosity: response
-                .d_rate
-                .iter()
-                .fold(0.0, |m: f64, d| m.max(-d * at.dt)),
-            response,
-            gap: stencil.gap + worn,
-            hollow: hollow + worn,
-            frames: Frames {
-                normal: stencil.normal,
-                now: stencil.frame,
-                before: stencil.frame_before,
-                normal_before: stencil.normal_before,
-            },
-            moved,
-            normal_stiffness: at.stiffness.normal,
-            tangential_stiffness: at.stiffness.tangential,
-            multiplier: at.kept.multiplier,
-            carried: at.kept.shear,
-            over: true,
-            steady: at.slip.steady,
-            off,
-            area: met.area,
-            ..Evaluation::default()
-        }
+/// Laws at the stencil of the batch.
+pub(super) fn respond(met: Met, scene: &Scene, batch: &mut Batch) -> Evaluation {
+    let interface = scene.interface;
+    let i = met.i;
+    if let Some(glued) = interface.state.start.glued.get(i) {
+        batch.stencil.gap -= glued;
     }
-
-    /// Enters the dofs of the nodes of a point into the batch.
-    fn claim(&self, met: Met, batch: &mut Batch) -> Slots {
-        let first = batch.dofs.len();
-        for &(node, _) in &batch.sides[met.sides..] {
-            for c in 0..self.dofs.dim {
-                batch.dofs.push(self.dofs.of(self.nodes[node], c));
+    let hollow = hollow(i, scene, &batch.sides[met.sides..]);
+    batch.stencil.gap += hollow - interface.offset_at_start(i, scene.t);
+    let slots = claim(interface, met, batch);
+    let stencil = &batch.stencil;
+    let belt = stencil.frame.map(|e| dot(e, scene.belt));
+    let slid = [stencil.slip[0] - belt[0], stencil.slip[1] - belt[1]];
+    let stiffness = stiffnesses(i, stencil, scene);
+    let before = &interface.state.points[i];
+    let mut at = LawInput {
+        dt: scene.dt,
+        stiffness,
+        kept: kept(interface, i, stencil),
+        slip: Sliding {
+            seen: slid,
+            path: None,
+            sprung: interface.state.springs,
+            steady: false,
+            slack: match scene.wants.tangent && interface.attempt.flips[i].last[0].is_none() {
+                true => FIRST_SLACK,
+                false => 0.0,
+            },
+        },
+        rest: rest(interface, i),
+        // A law of the program is asked once, before it is known how much of the way is slid.
+        worn: match scene.query {
+            LawQuery::Nothing => Worn::default(),
+            _ if scene.wants.pressed => Worn::default(),
+            _ => {
+                let path = length(stencil.frame_before, slid);
+                softness(interface, i, (path, scene.dt), before.pressure)
             }
-        }
-        Slots {
-            n: batch.dofs.len() - first,
-            dofs: first,
-            nodes: batch.sides.len() - met.sides,
-            sides: met.sides,
-            ..Slots::default()
-        }
-    }
-
-    /// How stiffly a point is held.
-    fn stiffnesses(&self, i: usize, stencil: &Stencil, scene: &Scene) -> Stiffnesses {
-        let point = &self.points[i];
-        let enforcement = self.laws.enforcement.as_dyn();
-        // Multipliers are exact in the end: how fast they get there depends on all that resists, inertia included. What springs do
-        // must not depend on the increment.
-        let own = match enforcement.multipliers() {
-            Multipliers::Augmented { .. } => self.own_stiffness(i, scene.rate.map(|_| scene.dt)),
-            _ => point.stiffness,
+        },
+        closing: closing(interface, i, stencil.gap, scene.dt),
+        sticking: before.status != Status::Slip,
+        pressed: scene.wants.pressed,
+        answers: scene.answers.get(i).copied().unwrap_or_default(),
+    };
+    see_rate(scene, &slots, batch, &mut at);
+    see_steady(i, scene, batch, &mut at);
+    let stencil = &batch.stencil;
+    if scene.query != LawQuery::Nothing {
+        let friction = match scene.query {
+            LawQuery::Friction => interface.laws.question(stencil, &at),
+            _ => Some(FrictionPoint::default()),
         };
-        let normal = match self.laws.needs_normal_stiffness() {
-            true => self.spring(enforcement.normal(), own),
-            false => f64::INFINITY,
-        };
-        let tangential = self.tangential_stiffness(own);
-        let touches = self.attempt.never_in_contact && stencil.gap <= TOUCHING * point.size;
-        Stiffnesses {
-            normal,
-            tangential,
-            weight: own.min(normal).min(tangential),
-            first_contact: if touches { point.stiffness } else { 0.0 },
-        }
+        batch.questions.extend(friction.map(|friction| Question {
+            point: i,
+            gap: stencil.gap - at.rest,
+            friction,
+        }));
+        return Evaluation::default();
     }
+    let [e, f] = stencil.frame_before;
+    let moved = add_scaled(scale(slid[0], e), slid[1], f);
+    let off = match interface.holds_exactly() {
+        true => [stencil.gap - at.rest, slid[0], slid[1]],
+        false => [0.0; 3],
+    };
+    let response = wearing(interface, i, stencil, moved, &mut at);
+    let worn = at.worn.depth(response.traction[0]);
+    Evaluation {
+        slots,
+        viscosity: response
+            .d_rate
+            .iter()
+            .fold(0.0, |m: f64, d| m.max(-d * at.dt)),
+        response,
+        gap: stencil.gap + worn,
+        hollow: hollow + worn,
+        frames: Frames {
+            normal: stencil.normal,
+            now: stencil.frame,
+            before: stencil.frame_before,
+            normal_before: stencil.normal_before,
+        },
+        moved,
+        normal_stiffness: at.stiffness.normal,
+        tangential_stiffness: at.stiffness.tangential,
+        multiplier: at.kept.multiplier,
+        carried: at.kept.shear,
+        over: true,
+        steady: at.slip.steady,
+        off,
+        area: met.area,
+        ..Evaluation::default()
+    }
+}
 
-    /// Multipliers and tractions of before, in the frame of the stencil.
-    fn kept(&self, i: usize, stencil: &Stencil) -> Kept {
-        // Where the surface was met before it may have had another normal.
-        let in_frame = |shear: Vec3, normal: Vec3| {
-            let there = match normal == [0.0; 3] {
-                true => shear,
-                false => carried_over(shear, normal, stencil.normal_before),
-            };
-            components(there, &stencil.frame_before, self.dofs.dim)
-        };
-        let (multiplier, before) = (&self.attempt.multipliers[i], &self.history.points[i]);
-        let shear = in_frame(multiplier.shear, multiplier.normal);
-        let carried = in_frame(before.shear, before.normal);
-        let centre = match self.laws.enforcement.as_dyn().multipliers() {
-            Multipliers::Augmented { .. } => {
-                let t = in_frame(multiplier.centre_shear, multiplier.centre_normal);
-                [multiplier.centre_pressure, t[0], t[1]]
-            }
-            _ => [0.0, carried[0], carried[1]],
-        };
-        Kept {
-            unknown: self.view().unknown(),
-            multiplier: [multiplier.pressure, shear[0], shear[1]],
-            centre,
-            shear: carried,
+/// Enters the dofs of the nodes of a point into the batch.
+fn claim(interface: InterfaceInput, met: Met, batch: &mut Batch) -> Slots {
+    let first = batch.dofs.len();
+    for &(node, _) in &batch.sides[met.sides..] {
+        for c in 0..interface.dofs.dim {
+            batch.dofs.push(interface.dofs.of(interface.nodes[node], c));
         }
     }
+    Slots {
+        n: batch.dofs.len() - first,
+        dofs: first,
+        nodes: batch.sides.len() - met.sides,
+        sides: met.sides,
+        ..Slots::default()
+    }
+}
 
-    /// Gap that counts as none.
-    ///
-    /// A constraint that is met to a tolerance leaves a gap, which multipliers would go on to correct in every increment to come. Where supports hold the
-    /// point in it, that has no end: pressure would grow without anything that asks for it. What the tolerance has accepted is accepted for
-    /// as long as the point is in contact.
-    fn rest(&self, i: usize) -> f64 {
-        if !self.view().unknown() {
-            return self.history.rest.get(i).copied().unwrap_or(0.0);
-        }
-        let (before, accepted) = (&self.history.points[i], self.attempt.accepted_gap);
-        match before.status {
-            Status::Open => 0.0,
-            _ => before.gap.max(-accepted).min(accepted),
-        }
+/// How stiffly a point is held.
+fn stiffnesses(i: usize, stencil: &Stencil, scene: &Scene) -> Stiffnesses {
+    let interface = scene.interface;
+    let point = &interface.points[i];
+    let enforcement = interface.laws.enforcement.as_dyn();
+    // Multipliers are exact in the end: how fast they get there depends on all that resists, inertia included. What springs do
+    // must not depend on the increment.
+    let own = match enforcement.multipliers() {
+        Multipliers::Augmented { .. } => own_stiffness(interface, i, scene.rate.map(|_| scene.dt)),
+        _ => point.stiffness,
+    };
+    let normal = match interface.laws.needs_normal_stiffness() {
+        true => spring(interface, enforcement.normal(), own),
+        false => f64::INFINITY,
+    };
+    let tangential = tangential_stiffness(interface, own);
+    let touches = interface.attempt.never_in_contact && stencil.gap <= TOUCHING * point.size;
+    Stiffnesses {
+        normal,
+        tangential,
+        weight: own.min(normal).min(tangential),
+        first_contact: if touches { point.stiffness } else { 0.0 },
     }
+}
 
-    /// Closing velocity over the increment; zero for a point that had no gap before.
-    fn closing(&self, i: usize, gap: f64, dt: f64) -> f64 {
-        let before = &self.history.points[i];
-        if before.normal == [0.0; 3] || !before.gap.is_finite() {
-            return 0.0;
-        }
-        (before.gap - gap) / dt
-    }
-
-    /// In sliding that lasts friction sees the motion of the primary's surface alone, which no displacement changes.
-    fn see_steady(&self, i: usize, scene: &Scene, batch: &mut Batch, at: &mut LawInput) {
-        if self.directives.steady.is_none() {
-            return;
-        }
-        let stencil = &batch.stencil;
-        let x = self.points[i].position(&scene.cache.x);
-        let way = scale(scene.dt, self.steady_velocity(x, scene.t));
-        let belt = stencil.frame.map(|e| dot(e, way));
-        let across = dot(stencil.normal, way);
-        // What moves along its normal alone does not slide.
-        if norm(add_scaled(way, -across, stencil.normal)) <= AT_REST * norm(way) {
-            return;
-        }
-        at.slip.path = at.slip.path.or(Some(at.slip.seen));
-        at.slip.seen = belt.map(|b| -b);
-        at.slip.steady = true;
-        let n = stencil.n;
-        for row in &mut batch.rated {
-            row.clear();
-            row.resize(n, 0.0);
-        }
-    }
-
-    /// In motion friction sees the velocity at the end of the increment. A tie holds places: of points without mass velocities are means over the increment, and a body with mass that went
-    /// as fast at its end would fall behind them.
-    fn see_rate(&self, scene: &Scene, slots: &Slots, batch: &mut Batch, at: &mut LawInput) {
-        for row in &mut batch.rated {
-            row.clear();
-        }
-        let Some(rate) = scene.rate.filter(|_| !self.laws.tied) else {
-            return;
+/// Multipliers and tractions of before, in the frame of the stencil.
+fn kept(interface: InterfaceInput, i: usize, stencil: &Stencil) -> Kept {
+    // Where the surface was met before it may have had another normal.
+    let in_frame = |shear: Vec3, normal: Vec3| {
+        let there = match normal == [0.0; 3] {
+            true => shear,
+            false => carried_over(shear, normal, stencil.normal_before),
         };
-        let stencil = &batch.stencil;
-        let nodes = batch.sides[slots.sides..].iter().map(|(node, _)| node);
-        let moving = Moving {
-            x: &scene.cache.x,
-            before: &scene.cache.before,
-            rate,
-            dim: self.dofs.dim,
-        };
-        let dofs = &batch.dofs[slots.dofs..];
-        let seen = rate_slip(stencil, nodes, dofs, &moving, &mut batch.rated);
-        let belt = stencil.frame.map(|e| dot(e, scene.belt_end));
-        at.slip.path = Some(at.slip.seen);
-        at.slip.seen = [seen[0] - belt[0], seen[1] - belt[1]];
+        components(there, &stencil.frame_before, interface.dofs.dim)
+    };
+    let (multiplier, before) = (
+        &interface.attempt.multipliers[i],
+        &interface.state.points[i],
+    );
+    let shear = in_frame(multiplier.shear, multiplier.normal);
+    let carried = in_frame(before.shear, before.normal);
+    let centre = match interface.laws.enforcement.as_dyn().multipliers() {
+        Multipliers::Augmented { .. } => {
+            let t = in_frame(multiplier.centre_shear, multiplier.centre_normal);
+            [multiplier.centre_pressure, t[0], t[1]]
+        }
+        _ => [0.0, carried[0], carried[1]],
+    };
+    Kept {
+        unknown: interface.unknown(),
+        multiplier: [multiplier.pressure, shear[0], shear[1]],
+        centre,
+        shear: carried,
     }
+}
+
+/// Gap that counts as none.
+///
+/// A constraint that is met to a tolerance leaves a gap, which multipliers would go on to correct in every increment to come. Where supports hold the
+/// point in it, that has no end: pressure would grow without anything that asks for it. What the tolerance has accepted is accepted for
+/// as long as the point is in contact.
+fn rest(interface: InterfaceInput, i: usize) -> f64 {
+    if !interface.unknown() {
+        return interface.state.rest.get(i).copied().unwrap_or(0.0);
+    }
+    let (before, accepted) = (&interface.state.points[i], interface.attempt.accepted_gap);
+    match before.status {
+        Status::Open => 0.0,
+        _ => before.gap.max(-accepted).min(accepted),
+    }
+}
+
+/// Closing velocity over the increment; zero for a point that had no gap before.
+fn closing(interface: InterfaceInput, i: usize, gap: f64, dt: f64) -> f64 {
+    let before = &interface.state.points[i];
+    if before.normal == [0.0; 3] || !before.gap.is_finite() {
+        return 0.0;
+    }
+    (before.gap - gap) / dt
+}
+
+/// In sliding that lasts friction sees the motion of the primary's surface alone, which no displacement changes.
+fn see_steady(i: usize, scene: &Scene, batch: &mut Batch, at: &mut LawInput) {
+    let interface = scene.interface;
+    if interface.conditions.steady.is_none() {
+        return;
+    }
+    let stencil = &batch.stencil;
+    let x = interface.points[i].position(&scene.geometry.x);
+    let way = scale(scene.dt, steady_velocity(interface, x, scene.t));
+    let belt = stencil.frame.map(|e| dot(e, way));
+    let across = dot(stencil.normal, way);
+    // What moves along its normal alone does not slide.
+    if norm(add_scaled(way, -across, stencil.normal)) <= AT_REST * norm(way) {
+        return;
+    }
+    at.slip.path = at.slip.path.or(Some(at.slip.seen));
+    at.slip.seen = belt.map(|b| -b);
+    at.slip.steady = true;
+    let n = stencil.n;
+    for row in &mut batch.rated {
+        row.clear();
+        row.resize(n, 0.0);
+    }
+}
+
+/// In motion friction sees the velocity at the end of the increment. A tie holds places: of points without mass velocities are means over the increment, and a body with mass that went
+/// as fast at its end would fall behind them.
+fn see_rate(scene: &Scene, slots: &Slots, batch: &mut Batch, at: &mut LawInput) {
+    let interface = scene.interface;
+    for row in &mut batch.rated {
+        row.clear();
+    }
+    let Some(rate) = scene.rate.filter(|_| !interface.laws.tied) else {
+        return;
+    };
+    let stencil = &batch.stencil;
+    let nodes = batch.sides[slots.sides..].iter().map(|(node, _)| node);
+    let moving = Moving {
+        x: &scene.geometry.x,
+        before: &scene.geometry.before,
+        rate,
+        dim: interface.dofs.dim,
+    };
+    let dofs = &batch.dofs[slots.dofs..];
+    let seen = rate_slip(stencil, nodes, dofs, &moving, &mut batch.rated);
+    let belt = stencil.frame.map(|e| dot(e, scene.belt_end));
+    at.slip.path = Some(at.slip.seen);
+    at.slip.seen = [seen[0] - belt[0], seen[1] - belt[1]];
 }

@@ -1,6 +1,8 @@
 //! What all points of one evaluation share.
 
-use super::cache::Cache;
+use super::cache::Geometry;
+use super::evaluation::Evaluation;
+use super::input::InterfaceInput;
 use crate::contact::obstacle::Pose;
 use crate::contact::response::Answers;
 use crate::math::Vec3;
@@ -32,8 +34,11 @@ pub(in crate::contact) enum LawQuery {
 /// What all points of one evaluation share.
 #[derive(Clone, Copy)]
 pub(in crate::contact) struct Scene<'a> {
-    /// Coordinates, bounds, integrals and the iterate before.
-    pub cache: &'a Cache,
+    pub interface: InterfaceInput<'a>,
+    /// Coordinates, bounds and integrals.
+    pub geometry: &'a Geometry,
+    /// The iterate before.
+    pub last: &'a [Evaluation],
     /// Pose of the obstacle now and at the last accepted state.
     pub poses: Option<&'a (Pose, Pose)>,
     /// Displacement of the belt over the increment, and its velocity at the end times the length of the increment.
@@ -57,4 +62,12 @@ impl Scene<'_> {
             None => self.belt,
         }
     }
+}
+
+/// A point whose stencil is made: the area it stands for, and where its nodes begin among those of the batch.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Met {
+    pub i: usize,
+    pub area: f64,
+    pub sides: usize,
 }

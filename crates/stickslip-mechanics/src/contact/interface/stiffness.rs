@@ -1,5 +1,6 @@
 //! How stiffly bodies and enforcement resist at a point.
 
+use super::input::InterfaceInput;
 use super::parts::Interface;
 use crate::contact::enforcement::{Multipliers, Stiffness};
 use crate::contact::surface::ContactPoint;
@@ -11,47 +12,49 @@ const STIFFEST: f64 = 1e6;
 /// rounding of gaps into pressure where supports hold a body already.
 const INERTIA: f64 = 0.4;
 
-impl Interface {
-    /// Tells the masses of the points of the mesh `[kg]`, zero for those that have none; an empty list where inertia plays no part.
-    pub fn set_masses(&mut self, by_point: &[f64]) {
-        let mass = |p: &ContactPoint| -> f64 {
-            let nodes = p.nodes.iter().zip(&p.weights);
-            nodes
-                .map(|(&node, w)| w * by_point.get(self.nodes[node]).copied().unwrap_or(0.0))
-                .sum::<f64>()
-                .max(0.0)
-        };
-        self.directives.inertia = self.points.iter().map(|p| mass(p) / p.area).collect();
-    }
+/// Tells the masses of the points of the mesh `[kg]`, zero for those that have none; an empty list where inertia plays no part.
+pub fn set_masses(interface: &mut Interface, by_point: &[f64]) {
+    let mass = |p: &ContactPoint| -> f64 {
+        let nodes = p.nodes.iter().zip(&p.weights);
+        nodes
+            .map(|(&node, w)| w * by_point.get(interface.nodes[node]).copied().unwrap_or(0.0))
+            .sum::<f64>()
+            .max(0.0)
+    };
+    interface.conditions.inertia = interface.points.iter().map(|p| mass(p) / p.area).collect();
+}
 
-    /// How stiffly the bodies resist at a point `[Pa/m]`: the cell beneath, and over an increment of length `moving` its mass.
-    pub(super) fn own_stiffness(&self, i: usize, moving: Option<f64>) -> f64 {
-        let inertia = self.directives.inertia.get(i).copied().unwrap_or(0.0);
-        let inertia = moving.map_or(0.0, |dt| INERTIA * inertia / (dt * dt));
-        self.points[i].stiffness + inertia
-    }
+/// How stiffly the bodies resist at a point `[Pa/m]`: the cell beneath, and over an increment of length `moving` its mass.
+pub(super) fn own_stiffness(interface: InterfaceInput, i: usize, moving: Option<f64>) -> f64 {
+    let inertia = interface.conditions.inertia.get(i).copied().unwrap_or(0.0);
+    let inertia = moving.map_or(0.0, |dt| INERTIA * inertia / (dt * dt));
+    interface.points[i].stiffness + inertia
+}
 
-    /// Stiffness against slip at a point whose own is this `[Pa/m]`; infinite where the law alone says what resists.
-    pub(super) fn tangential_stiffness(&self, own: f64) -> f64 {
-        match self.laws.needs_tangential_stiffness() {
-            true => self.spring(self.laws.enforcement.as_dyn().tangential(), own),
-            false if self.laws.lends_spring(self.history.springs) => own,
-            false => f64::INFINITY,
-        }
+/// Stiffness against slip at a point whose own is this `[Pa/m]`; infinite where the law alone says what resists.
+pub(super) fn tangential_stiffness(interface: InterfaceInput, own: f64) -> f64 {
+    match interface.laws.needs_tangential_stiffness() {
+        true => spring(
+            interface,
+            interface.laws.enforcement.as_dyn().tangential(),
+            own,
+        ),
+        false if interface.laws.lends_spring(interface.state.springs) => own,
+        false => f64::INFINITY,
     }
+}
 
-    /// A stiffness of the enforcement as far as it has been tightened, or that of the cell beneath where explicit springs replace multipliers.
-    pub(in crate::contact) fn spring(&self, stiffness: Stiffness, own: f64) -> f64 {
-        let multipliers = self.laws.enforcement.as_dyn().multipliers();
-        if self.history.springs && multipliers != Multipliers::None {
-            return own;
-        }
-        let start = stiffness.resolve(own);
-        if self.attempt.tightened == 0 {
-            return start;
-        }
-        // Never softer than asked for, and never so stiff that the bodies drown in rounding.
-        let raised = start * 10_f64.powi(self.attempt.tightened as i32);
-        raised.min(STIFFEST * own).max(start)
+/// A stiffness of the enforcement as far as it has been tightened, or that of the cell beneath where explicit springs replace multipliers.
+pub(in crate::contact) fn spring(interface: InterfaceInput, stiffness: Stiffness, own: f64) -> f64 {
+    let multipliers = interface.laws.enforcement.as_dyn().multipliers();
+    if interface.state.springs && multipliers != Multipliers::None {
+        return own;
     }
+    let start = stiffness.resolve(own);
+    if interface.attempt.tightened == 0 {
+        return start;
+    }
+    // Never softer than asked for, and never so stiff that the bodies drown in rounding.
+    let raised = start * 10_f64.powi(interface.attempt.tightened as i32);
+    raised.min(STIFFEST * own).max(start)
 }

@@ -30,11 +30,9 @@ impl Status {
     }
 }
 
-impl Interface {
-    /// A point as a place to look at.
-    pub(super) fn culprit(&self, i: usize) -> Culprit {
-        culprit(evidence(self, i))
-    }
+/// A point as a place to look at.
+pub(super) fn culprit(interface: &Interface, i: usize) -> Culprit {
+    said(evidence(interface, i))
 }
 
 /// What a point did in the present attempt.
@@ -94,11 +92,11 @@ pub(super) fn culprits(interface: &Interface) -> Vec<Culprit> {
         flips.then_with(|| slid(b).total_cmp(&slid(a)))
     });
     all.truncate(MOST);
-    all.into_iter().map(culprit).collect()
+    all.into_iter().map(said).collect()
 }
 
 /// Evidence with its prose.
-fn culprit(e: Evidence) -> Culprit {
+fn said(e: Evidence) -> Culprit {
     let who = match e.node {
         Some(id) => format!("node {id}"),
         None => "point".to_string(),

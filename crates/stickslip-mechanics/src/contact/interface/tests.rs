@@ -227,6 +227,7 @@ fn the_tangent_is_that_of_the_force() {
                     at,
                     dt: 1.0,
                     rate: None,
+                    frames: None,
                 };
                 out.wants_surrogate = surrogate;
                 out.reset(tangent);
@@ -321,6 +322,7 @@ fn numbers_of_facets_make_no_difference() {
                 at: &at,
                 dt: 1.0,
                 rate: None,
+                frames: None,
             };
             let mut out = Assembler::new(interface.dofs.count());
             out.reset(false);
@@ -356,6 +358,7 @@ fn tentative_evaluations_leave_no_trace_until_they_are_settled() {
                     at,
                     dt: 1.0,
                     rate: None,
+                    frames: None,
                 };
                 out.tentative = tentative;
                 out.reset(tangent);
@@ -368,6 +371,7 @@ fn tentative_evaluations_leave_no_trace_until_they_are_settled() {
                 at: &first,
                 dt: 1.0,
                 rate: None,
+                frames: None,
             });
             interface.begin();
             evaluate(interface, &first, true, false);
@@ -428,6 +432,7 @@ fn points_pass_edges_a_few_times_only() {
                 at,
                 dt: 1.0,
                 rate: None,
+                frames: None,
             };
             out.tentative = true;
             out.reset(true);
@@ -442,6 +447,7 @@ fn points_pass_edges_a_few_times_only() {
             at: &on,
             dt: 1.0,
             rate: None,
+            frames: None,
         };
         interface.prepare(&stage);
         interface.begin();

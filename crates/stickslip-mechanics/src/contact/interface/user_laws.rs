@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::evaluate::evaluate_points;
 use super::evaluation::{Evaluations, Question};
 use super::parts::Interface;
 use super::scene::{LawQuery, Scene, Wants};
@@ -12,80 +13,77 @@ use crate::contact::response::Answers;
 /// Negative limit relative to the pressure that is none.
 const ROUNDING: f64 = 1e-12;
 
-impl Interface {
-    /// Lets functions of the program take the place of the normal law and the friction law of the problem. To be called before the analysis
-    /// begins.
-    pub fn set_user_laws(
-        &mut self,
-        normal: Option<Arc<dyn PressureFunction>>,
-        friction: Option<Arc<dyn LimitFunction>>,
-    ) {
-        let sizes = self.points.iter().map(|p| p.size).sum::<f64>();
-        let length = sizes / self.points.len().max(1) as f64;
-        self.definition.laws.user.normal = normal.map(|f| UserNormal::new(f, length));
-        self.definition.laws.user.friction = friction.map(UserFriction::new);
-    }
+/// Lets functions of the program take the place of the normal law and the friction law of the problem. To be called before the analysis
+/// begins.
+pub fn set_user_laws(
+    interface: &mut Interface,
+    normal: Option<Arc<dyn PressureFunction>>,
+    friction: Option<Arc<dyn LimitFunction>>,
+) {
+    let sizes = interface.points.iter().map(|p| p.size).sum::<f64>();
+    let length = sizes / interface.points.len().max(1) as f64;
+    interface.definition.laws.user.normal = normal.map(|f| UserNormal::new(f, length));
+    interface.definition.laws.user.friction = friction.map(UserFriction::new);
+}
 
-    /// What laws of the program say at the points of a scene; nothing where there are none.
-    ///
-    /// The points are gone through once for each of the laws, to find what it is asked: that costs geometry twice, but calls the
-    /// function once.
-    pub(super) fn ask(
-        &self,
-        scene: &Scene,
-        out: &mut Evaluations,
-        anchors: &mut [Option<Anchor>],
-    ) -> Vec<Answers> {
-        let user = &self.laws.user;
-        if !user.any() || self.laws.tied {
-            return Vec::new();
-        }
-        let mut answers = vec![Answers::default(); self.points.len()];
-        if let Some(normal) = &user.normal {
-            let questions = self.questions(scene, &answers, LawQuery::Gaps, out, anchors);
-            let gaps: Vec<f64> = questions.iter().map(|q| q.gap).collect();
-            for (q, answer) in questions.iter().zip(normal.pressures(&gaps)) {
-                answers[q.point].pressure = Some(answer);
-            }
-        }
-        if let Some(friction) = &user.friction {
-            let questions = self.questions(scene, &answers, LawQuery::Friction, out, anchors);
-            let points: Vec<_> = questions.iter().map(|q| q.friction).collect();
-            for (q, mut answer) in questions.iter().zip(friction.limits(&points)) {
-                // A negative limit would push where friction resists: the iteration stops instead.
-                if answer.value < -ROUNDING * q.friction.pressure.abs() {
-                    answer.value = f64::NAN;
-                }
-                answer.value = match answer.value < 0.0 {
-                    true => 0.0,
-                    false => answer.value,
-                };
-                answers[q.point].limit = Some(answer);
-            }
-        }
-        answers
+/// What laws of the program say at the points of a scene; nothing where there are none.
+///
+/// The points are gone through once for each of the laws, to find what it is asked: that costs geometry twice, but calls the
+/// function once.
+pub(super) fn ask(
+    scene: &Scene,
+    out: &mut Evaluations,
+    anchors: &mut [Option<Anchor>],
+) -> Vec<Answers> {
+    let interface = scene.interface;
+    let user = &interface.laws.user;
+    if !user.any() || interface.laws.tied {
+        return Vec::new();
     }
+    let mut answers = vec![Answers::default(); interface.points.len()];
+    if let Some(normal) = &user.normal {
+        let questions = questions(scene, &answers, LawQuery::Gaps, out, anchors);
+        let gaps: Vec<f64> = questions.iter().map(|q| q.gap).collect();
+        for (q, answer) in questions.iter().zip(normal.pressures(&gaps)) {
+            answers[q.point].pressure = Some(answer);
+        }
+    }
+    if let Some(friction) = &user.friction {
+        let questions = questions(scene, &answers, LawQuery::Friction, out, anchors);
+        let points: Vec<_> = questions.iter().map(|q| q.friction).collect();
+        for (q, mut answer) in questions.iter().zip(friction.limits(&points)) {
+            // A negative limit would push where friction resists: the iteration stops instead.
+            if answer.value < -ROUNDING * q.friction.pressure.abs() {
+                answer.value = f64::NAN;
+            }
+            answer.value = match answer.value < 0.0 {
+                true => 0.0,
+                false => answer.value,
+            };
+            answers[q.point].limit = Some(answer);
+        }
+    }
+    answers
+}
 
-    fn questions(
-        &self,
-        scene: &Scene,
-        answers: &[Answers],
-        query: LawQuery,
-        out: &mut Evaluations,
-        anchors: &mut [Option<Anchor>],
-    ) -> Vec<Question> {
-        let scene = Scene {
-            answers,
-            query,
-            wants: Wants {
-                tangent: false,
-                surrogate: false,
-                ..scene.wants
-            },
-            ..*scene
-        };
-        self.evaluate_points(&scene, out, anchors);
-        let batches = out.batches.iter();
-        batches.flat_map(|b| b.questions.iter().copied()).collect()
-    }
+fn questions(
+    scene: &Scene,
+    answers: &[Answers],
+    query: LawQuery,
+    out: &mut Evaluations,
+    anchors: &mut [Option<Anchor>],
+) -> Vec<Question> {
+    let scene = Scene {
+        answers,
+        query,
+        wants: Wants {
+            tangent: false,
+            surrogate: false,
+            ..scene.wants
+        },
+        ..*scene
+    };
+    evaluate_points(&scene, out, anchors);
+    let batches = out.batches.iter();
+    batches.flat_map(|b| b.questions.iter().copied()).collect()
 }

@@ -4,6 +4,9 @@ use super::definition::InterfaceDefinition;
 use super::history::History;
 use crate::contact::enforcement::Multipliers;
 
+/// Part of the tolerance by which a gap may be left as it is where a point stays in contact.
+const LEFT: f64 = 0.5;
+
 /// Shared references to the definition of an interface and to a history of it: that of now, or that of an increment which is reported later.
 #[derive(Debug, Clone, Copy)]
 pub struct ContactView<'a> {
@@ -51,5 +54,18 @@ impl ContactView<'_> {
     /// Whether multipliers are unknowns of the present attempt.
     pub(in crate::contact) fn unknown(&self) -> bool {
         self.laws.unknown_multipliers() && !self.state.springs
+    }
+
+    /// The gap that an augmented Lagrangian may leave, by half: the part `error` of the elastic approach of the last accepted state.
+    pub(super) fn accepted_gap(&self) -> f64 {
+        let Multipliers::Augmented { error } = self.laws.enforcement.as_dyn().multipliers() else {
+            return 0.0;
+        };
+        if !self.laws.needs_normal_stiffness() {
+            return 0.0;
+        }
+        let points = self.points.iter().zip(&self.state.points);
+        let approach = points.map(|(p, h)| h.pressure.abs() / p.stiffness);
+        LEFT * error * approach.fold(0.0, f64::max)
     }
 }

@@ -13,8 +13,11 @@
 use super::definition::InterfaceDefinition;
 use super::evaluation::Evaluation;
 use super::history::PointHistory;
+use super::input::InterfaceInput;
+use super::on_ground::ground_depth;
 use super::parts::Interface;
 use super::scene::Scene;
+use super::sides::facet_weights;
 use crate::contact::kinematics::Stencil;
 use crate::contact::law::wear::{Feedback, Sliding, WearPoint, WearRate};
 use crate::contact::response::{LawInput, Response, Status, Worn};
@@ -38,153 +41,146 @@ pub(super) fn path(response: &Response, frictional: bool, frame: [Vec3; 2], move
     }
 }
 
-impl Interface {
-    /// How many times wear counts what slides.
-    pub(super) fn cycles(&self) -> f64 {
-        1.0 + self.directives.skipped
+/// Depth that is open at a point before the increment, which lies over the nodes of `sides` `[m]`.
+pub(super) fn hollow(i: usize, scene: &Scene, sides: &[(usize, f64)]) -> f64 {
+    let interface = scene.interface;
+    if !interface.laws.wears_away() {
+        return 0.0;
     }
-
-    /// Depth that is open at a point before the increment, which lies over the nodes of `sides` `[m]`.
-    pub(super) fn hollow(&self, i: usize, scene: &Scene, sides: &[(usize, f64)]) -> f64 {
-        if !self.laws.wears_away() {
-            return 0.0;
-        }
-        if self.hollows.ground.is_some() {
-            return self.history.points[i].worn + self.ground_depth(i, scene, sides);
-        }
-        let traces = &self.history.traces;
-        let theirs = sides.iter().filter(|(n, _)| *n < self.primary_nodes);
-        let theirs = theirs.map(|&(n, w)| -w * traces.get(n).map_or(0.0, |t| t[1]));
-        self.history.points[i].worn + theirs.sum::<f64>()
+    if interface.hollows.ground.is_some() {
+        return interface.state.points[i].worn + ground_depth(i, scene, sides);
     }
+    let traces = &interface.state.traces;
+    let theirs = sides.iter().filter(|(n, _)| *n < interface.primary_nodes);
+    let theirs = theirs.map(|&(n, w)| -w * traces.get(n).map_or(0.0, |t| t[1]));
+    interface.state.points[i].worn + theirs.sum::<f64>()
+}
 
-    /// By how much a point that slides a `path` over a time wears both sides away, near a pressure.
-    pub(super) fn softness(&self, i: usize, (path, dt): (f64, f64), pressure: f64) -> Worn {
-        let laws = &self.laws;
-        if !laws.wears_away() || laws.feedback != Feedback::Implicit {
-            return Worn::default();
-        }
-        let h = &self.history.points[i];
-        // The part of the pressure that the shear was at the last accepted state.
-        let shear = match h.pressure > 0.0 {
-            true => h.limit / h.pressure,
-            false => 0.0,
-        };
-        let way = self.cycles() * path;
-        let at = WearPoint {
-            path: h.path,
-            way,
-            energy: h.spent,
-            spent: way * h.limit,
-            pressure,
-            speed: path / dt,
-        };
-        // h = k(p) p s has the tangent k p s + (k + p k') s (p' - p).
-        let mut worn = Worn::default();
-        let felt = self.history.ground.felt.get(i).copied().unwrap_or(1.0);
-        for (rate, part) in wear_rates(&self.definition, &at)
-            .into_iter()
-            .zip([1.0, felt])
-        {
-            let change = pressure * rate.d_pressure;
-            worn.slope += part * (rate.per_path(shear) + change) * way;
-            worn.base -= part * pressure * change * way;
-        }
-        worn
+/// By how much a point that slides a `path` over a time wears both sides away, near a pressure.
+pub(super) fn softness(
+    interface: InterfaceInput,
+    i: usize,
+    (path, dt): (f64, f64),
+    pressure: f64,
+) -> Worn {
+    let laws = &interface.laws;
+    if !laws.wears_away() || laws.feedback != Feedback::Implicit {
+        return Worn::default();
     }
-
-    /// What the laws answer a point that wears as it slides. How far it slides depends on the pressure, which falls with what is worn off: the way rises from what it
-    /// is without wear and is never longer than the whole, so that evaluations one after the other come to its end. Where the rate depends on the pressure they are those of
-    /// Newton's method, of a depth that rises with the pressure.
-    pub(super) fn wearing(
-        &self,
-        i: usize,
-        stencil: &Stencil,
-        moved: Vec3,
-        at: &mut LawInput,
-    ) -> Response {
-        let mut response = self.laws.respond(stencil, at);
-        if at.pressed {
-            return response;
-        }
-        for _ in 0..EVALUATIONS {
-            let path = rubbed(&self.definition, &response, stencil.frame_before, moved);
-            let pressure = response.traction[0].max(0.0);
-            let worn = self.softness(i, (path, at.dt), pressure);
-            let off = worn.depth(pressure) - at.worn.depth(pressure);
-            let turned = worn.slope - at.worn.slope;
-            if off.abs() <= SETTLED * worn.slope * pressure && turned.abs() <= SETTLED * worn.slope
-            {
-                break;
-            }
-            at.worn = worn;
-            response = self.laws.respond(stencil, at);
-        }
-        response
+    let h = &interface.state.points[i];
+    // The part of the pressure that the shear was at the last accepted state.
+    let shear = match h.pressure > 0.0 {
+        true => h.limit / h.pressure,
+        false => 0.0,
+    };
+    let way = interface.conditions.cycles() * path;
+    let at = WearPoint {
+        path: h.path,
+        way,
+        energy: h.spent,
+        spent: way * h.limit,
+        pressure,
+        speed: path / dt,
+    };
+    // h = k(p) p s has the tangent k p s + (k + p k') s (p' - p).
+    let mut worn = Worn::default();
+    let felt = interface.state.ground.felt.get(i).copied().unwrap_or(1.0);
+    for (rate, part) in wear_rates(interface.definition, &at)
+        .into_iter()
+        .zip([1.0, felt])
+    {
+        let change = pressure * rate.d_pressure;
+        worn.slope += part * (rate.per_path(shear) + change) * way;
+        worn.base -= part * pressure * change * way;
     }
+    worn
+}
 
-    /// What a point wears off its own side and the other over an increment, per area that it stands for `[m]`. `pressed`: pressure times path by the
-    /// trapezoidal rule.
-    pub(super) fn wears_off(
-        &self,
-        h: &PointHistory,
-        e: &Evaluation,
-        (pressed, dissipated): (f64, f64),
-        dt: f64,
-    ) -> [f64; 2] {
-        let path = rubbed(&self.definition, &e.response, e.frames.before, e.moved);
-        let pressed = match self.laws.feedback {
-            Feedback::None => pressed,
-            // That is what the gap was opened by.
-            _ => e.response.traction[0].max(0.0) * path,
-        };
-        let slid = Sliding {
-            pressed,
-            dissipated,
-        };
-        let at = WearPoint {
-            path: h.path,
-            way: self.cycles() * path,
-            energy: h.spent,
-            spent: self.cycles() * dissipated,
-            pressure: if path > 0.0 { pressed / path } else { 0.0 },
-            speed: path / dt,
-        };
-        wear_rates(&self.definition, &at).map(|r| self.cycles() * r.depth(slid))
+/// What the laws answer a point that wears as it slides. How far it slides depends on the pressure, which falls with what is worn off: the way rises from what it
+/// is without wear and is never longer than the whole, so that evaluations one after the other come to its end. Where the rate depends on the pressure they are those of
+/// Newton's method, of a depth that rises with the pressure.
+pub(super) fn wearing(
+    interface: InterfaceInput,
+    i: usize,
+    stencil: &Stencil,
+    moved: Vec3,
+    at: &mut LawInput,
+) -> Response {
+    let mut response = interface.laws.respond(stencil, at);
+    if at.pressed {
+        return response;
     }
+    for _ in 0..EVALUATIONS {
+        let path = rubbed(interface.definition, &response, stencil.frame_before, moved);
+        let pressure = response.traction[0].max(0.0);
+        let worn = softness(interface, i, (path, at.dt), pressure);
+        let off = worn.depth(pressure) - at.worn.depth(pressure);
+        let turned = worn.slope - at.worn.slope;
+        if off.abs() <= SETTLED * worn.slope * pressure && turned.abs() <= SETTLED * worn.slope {
+            break;
+        }
+        at.worn = worn;
+        response = interface.laws.respond(stencil, at);
+    }
+    response
+}
 
-    /// Adds volumes that points take from the primary to the depths of its corners.
-    pub(super) fn hollow_out(&mut self, volumes: &[f64]) {
-        if self.hollows.is_empty() || volumes.iter().all(|v| *v == 0.0) {
-            return;
-        }
-        let mut lost = vec![0.0; self.nodes.len()];
-        for (i, volume) in volumes.iter().enumerate() {
-            for (node, w) in self.facet_weights(i) {
-                for end in self.hollows.ends[node] {
-                    lost[end] += 0.5 * w * volume;
-                }
-            }
-        }
-        let traces = &mut self.history.traces;
-        traces.resize(self.definition.nodes.len(), [0.0; 2]);
-        let areas = self.definition.hollows.area.iter().zip(&lost);
-        for (trace, (area, lost)) in traces.iter_mut().zip(areas) {
-            if *area > 0.0 {
-                trace[1] += lost / area;
-            }
-        }
-        for node in 0..self.definition.hollows.ends.len() {
-            let [a, b] = self.definition.hollows.ends[node];
-            if a != b {
-                traces[node][1] = 0.5 * (traces[a][1] + traces[b][1]);
+/// What a point wears off its own side and the other over an increment, per area that it stands for `[m]`. `pressed`: pressure times path by the
+/// trapezoidal rule.
+pub(super) fn wears_off(
+    interface: InterfaceInput,
+    h: &PointHistory,
+    e: &Evaluation,
+    (pressed, dissipated): (f64, f64),
+    dt: f64,
+) -> [f64; 2] {
+    let path = rubbed(interface.definition, &e.response, e.frames.before, e.moved);
+    let pressed = match interface.laws.feedback {
+        Feedback::None => pressed,
+        // That is what the gap was opened by.
+        _ => e.response.traction[0].max(0.0) * path,
+    };
+    let slid = Sliding {
+        pressed,
+        dissipated,
+    };
+    let at = WearPoint {
+        path: h.path,
+        way: interface.conditions.cycles() * path,
+        energy: h.spent,
+        spent: interface.conditions.cycles() * dissipated,
+        pressure: if path > 0.0 { pressed / path } else { 0.0 },
+        speed: path / dt,
+    };
+    wear_rates(interface.definition, &at).map(|r| interface.conditions.cycles() * r.depth(slid))
+}
+
+/// Adds volumes that points take from the primary to the depths of its corners.
+pub(super) fn hollow_out(interface: &mut Interface, volumes: &[f64]) {
+    if interface.hollows.is_empty() || volumes.iter().all(|v| *v == 0.0) {
+        return;
+    }
+    let mut lost = vec![0.0; interface.nodes.len()];
+    for (i, volume) in volumes.iter().enumerate() {
+        for (node, w) in facet_weights(interface.primary_nodes, &interface.cache.last, i) {
+            for end in interface.hollows.ends[node] {
+                lost[end] += 0.5 * w * volume;
             }
         }
     }
-
-    /// Tells how many cycles beyond the one that is computed it stands for, as far as wear is concerned.
-    pub fn skip(&mut self, cycles: f64) {
-        self.directives.skipped = cycles;
+    let traces = &mut interface.state.traces;
+    traces.resize(interface.definition.nodes.len(), [0.0; 2]);
+    let areas = interface.definition.hollows.area.iter().zip(&lost);
+    for (trace, (area, lost)) in traces.iter_mut().zip(areas) {
+        if *area > 0.0 {
+            trace[1] += lost / area;
+        }
+    }
+    for node in 0..interface.definition.hollows.ends.len() {
+        let [a, b] = interface.definition.hollows.ends[node];
+        if a != b {
+            traces[node][1] = 0.5 * (traces[a][1] + traces[b][1]);
+        }
     }
 }
 

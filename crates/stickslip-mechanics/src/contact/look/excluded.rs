@@ -2,11 +2,11 @@
 
 use crate::contact::interface::candidate_range::gaps;
 use crate::contact::interface::view::ContactView;
-use crate::contact::interface::{CandidateRange, Directives};
+use crate::contact::interface::{CandidateRange, Conditions};
 
 /// The number of points that do not take part although they penetrate the primary at displacements `u`.
-pub fn overlooked(contact: ContactView, directives: &Directives, u: &[f64], t: f64) -> usize {
-    let gaps = excluded_gaps(contact, directives, u, t).into_iter();
+pub fn overlooked(contact: ContactView, conditions: &Conditions, u: &[f64], t: f64) -> usize {
+    let gaps = excluded_gaps(contact, conditions, u, t).into_iter();
     let smallest = |i: usize| -1e-9 * contact.points[i].size;
     gaps.filter(|&(i, gap)| gap < smallest(i)).count()
 }
@@ -14,11 +14,11 @@ pub fn overlooked(contact: ContactView, directives: &Directives, u: &[f64], t: f
 /// Points that do not take part, with their gaps at displacements `u` and time `t`.
 pub fn excluded_gaps(
     contact: ContactView,
-    directives: &Directives,
+    conditions: &Conditions,
     u: &[f64],
     t: f64,
 ) -> Vec<(usize, f64)> {
-    let excluded = &directives.excluded;
+    let excluded = &conditions.excluded;
     if excluded.is_empty() {
         return Vec::new();
     }

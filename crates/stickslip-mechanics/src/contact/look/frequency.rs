@@ -1,6 +1,8 @@
 //! How fast the springs and dashpots of an interface let masses swing: what bounds explicit increments.
 
 use crate::contact::interface::Interface;
+use crate::contact::interface::sides::weights_of;
+use crate::contact::interface::stiffness::spring;
 use crate::system::Links;
 
 /// Penetration of a point about to touch, relative to the cell beneath.
@@ -66,7 +68,8 @@ pub fn highest_rate(interface: &Interface, inverse_mass: &[f64], links: &Links) 
 fn stiffest(interface: &Interface, i: usize, links: &Links) -> f64 {
     let point = &interface.points[i];
     let own = if interface.laws.needs_normal_stiffness() {
-        interface.spring(
+        spring(
+            interface.input(),
             interface.laws.enforcement.as_dyn().normal(),
             point.stiffness,
         )
@@ -104,7 +107,7 @@ fn highest_eigenvalue(
         if whole == 0.0 {
             continue;
         }
-        for (node, w) in interface.weights_of(i) {
+        for (node, w) in weights_of(interface, &interface.cache.last, i) {
             rows[node] += whole * w.abs();
         }
     }

@@ -9,7 +9,7 @@ use crate::contact::interface::worn::rubbed;
 /// How many points have another status in the present attempt than at the last accepted state.
 pub fn switched(interface: &Interface) -> usize {
     let points = interface
-        .history
+        .state
         .points
         .iter()
         .zip(&interface.cache.last.points);
@@ -29,12 +29,12 @@ pub fn slid(interface: &Interface) -> f64 {
     let pressed = (interface.cache.last.points.iter()).filter(|e| e.response.traction[0] > 0.0);
     let ways =
         pressed.map(|e| rubbed(&interface.definition, &e.response, e.frames.before, e.moved));
-    ways.fold(0.0, f64::max) * (1.0 + interface.directives.skipped)
+    ways.fold(0.0, f64::max) * (1.0 + interface.conditions.skipped)
 }
 
 /// Statuses at the last evaluation, or at the last accepted state where there is none.
 pub fn statuses(interface: &Interface) -> Vec<Status> {
-    let (history, cache) = (&interface.history, &interface.cache);
+    let (history, cache) = (&interface.state, &interface.cache);
     match cache.last.points.is_empty() {
         true => history.points.iter().map(|h| h.status).collect(),
         false => {

@@ -244,7 +244,7 @@ mod tests {
             pressure: pressure(x[0], x[1], k / SIDE + k % SIDE),
             ..PointHistory::default()
         });
-        interface.history.points = history.collect();
+        interface.state.points = history.collect();
         interface.definition.reference = reference;
         oscillation(interface.view())
     }

@@ -38,7 +38,7 @@ pub fn tie_rows(interface: &Interface) -> Vec<TieRow> {
             continue;
         };
         let (mut dofs, mut rows) = (batch.dofs(e).to_vec(), tangent.rows.to_vec());
-        (interface.cache.in_space).gradients(&mut dofs, &mut rows);
+        (interface.cache.geometry.in_space).gradients(&mut dofs, &mut rows);
         for (direction, row) in rows.chunks_exact(dofs.len()).enumerate() {
             let terms = dofs.iter().copied().zip(row.iter().copied());
             let terms: Vec<_> = terms.filter(|(_, a)| *a != 0.0).collect();

@@ -134,6 +134,7 @@ fn places(
         at,
         dt: at.t - from.t,
         rate: system.rate,
+        frames: system.frames,
     };
     let (mut places, mut counts) = (Vec::new(), Vec::new());
     for (force, contact) in system.contact.iter_mut().enumerate() {

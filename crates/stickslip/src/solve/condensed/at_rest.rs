@@ -80,8 +80,10 @@ impl Solver {
             model,
             forces: floating.with(contact.forces()),
             bulk: &mut bulk,
+            rate: None,
+            frames: None,
         }
-        .solve(constraints, None, (from, &mut at));
+        .solve(constraints, from, &mut at);
         *found = Some((amplitudes, bulk.carried()));
         let converged = converged?;
         let dofs = condensation.dofs.iter();
@@ -196,7 +198,7 @@ impl Solver {
         let largest = &mut self.condenser.largest_forces;
         recovered.check(model.settings.tolerance, largest)?;
         for (interface, view) in contact.interfaces.iter().zip(contact.views(frame)) {
-            let overlooked = look::overlooked(view, &interface.directives, u, t);
+            let overlooked = look::overlooked(view, &interface.conditions, u, t);
             if overlooked > 0 {
                 return Err(StepFailure::new(
                     Cause::Reach,

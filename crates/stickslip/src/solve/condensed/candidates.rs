@@ -2,7 +2,7 @@
 
 use crate::solve::condenser::Condenser;
 
-use crate::contact::interface::CandidateRange;
+use crate::contact::interface::{CandidateRange, include_all, restrict_to_candidates};
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
@@ -35,7 +35,7 @@ impl Solver {
         let widened = self.condenser.widened;
         if count < FEW || widened >= MOST_WIDENED || !self.method.condenses() {
             for interface in &mut contact.interfaces {
-                interface.include_all(&mut kept);
+                include_all(interface, &mut kept);
             }
         } else {
             let step = &model.steps[frame.step];
@@ -49,8 +49,8 @@ impl Solver {
             for interface in &mut contact.interfaces {
                 match interface.nodes.iter().any(turns) {
                     // In turn all of its points come round.
-                    true => interface.include_all(&mut kept),
-                    false => interface.restrict_to_candidates(&frame.state.u, range, &mut kept),
+                    true => include_all(interface, &mut kept),
+                    false => restrict_to_candidates(interface, &frame.state.u, range, &mut kept),
                 }
             }
         }
@@ -74,7 +74,7 @@ impl Solver {
     pub fn include_all(&mut self, model: &Model, contact: &mut Contact) {
         let mut kept = vec![false; model.dofs.points];
         for interface in &mut contact.interfaces {
-            interface.include_all(&mut kept);
+            include_all(interface, &mut kept);
         }
         self.condenser.kept = None;
         self.log.method = "explicit";

@@ -99,8 +99,10 @@ impl Solver {
             model,
             forces: contact.forces(),
             bulk: &mut bulk,
+            rate: task.rate,
+            frames: task.frames,
         }
-        .solve(task.constraints, task.rate, (task.from, at))?;
+        .solve(task.constraints, task.from, at)?;
         let started = Instant::now();
         let mut moved = condensation.gather(&at.u);
         moved.iter_mut().zip(&base).for_each(|(m, b)| *m -= b);

@@ -1,6 +1,6 @@
-//! What the solver has told an interface: it holds until it is told something else, and is no part of what the interface has been through.
+//! What holds while an interface is evaluated, and is no part of what it has been through.
 
-use crate::math::Vec3;
+use crate::math::{Vec3, scale};
 
 /// Sliding that lasts: where the surface of the primary moves by itself, friction sees that motion alone, and points slide all the time.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -19,9 +19,9 @@ crate::keep!(Steady {
     velocity
 });
 
-/// How an interface is to act at present.
-#[derive(Debug, Clone, Default)]
-pub struct Directives {
+/// What holds in an attempt: who evaluates for something else does so under conditions of its own.
+#[derive(Debug, Clone)]
+pub struct Conditions {
     /// Mass per area behind each point `[kg/m²]`; empty where it plays no part.
     pub(in crate::contact) inertia: Vec<f64>,
     /// Tractions are means over the increment, as where masses meet what does not give way, not those at its end.
@@ -31,16 +31,54 @@ pub struct Directives {
     /// Points within the part of the reach in which contact is expected to stay.
     pub(in crate::contact) inner: Vec<bool>,
     /// Cycles beside that at hand which it stands for: what slides wears as often as that in addition.
-    pub(in crate::contact) skipped: f64,
+    pub skipped: f64,
     /// Sliding lasts; `None` where friction sees slips over increments as it does otherwise.
     pub steady: Option<Steady>,
+    /// How many times as fast as its table says the belt runs.
+    pub pace: f64,
 }
 
-crate::keep!(Directives {
+impl Default for Conditions {
+    fn default() -> Self {
+        Conditions {
+            inertia: Vec::new(),
+            impulses: false,
+            excluded: Vec::new(),
+            inner: Vec::new(),
+            skipped: 0.0,
+            steady: None,
+            pace: 1.0,
+        }
+    }
+}
+
+impl Conditions {
+    /// The same where all that slides by itself does so many times as fast.
+    pub fn at_pace(&self, factor: f64) -> Self {
+        let steady = self.steady.map(|steady| Steady {
+            velocity: scale(factor, steady.velocity),
+            turning: scale(factor, steady.turning),
+            ..steady
+        });
+        Conditions {
+            steady,
+            pace: factor,
+            ..self.clone()
+        }
+    }
+
+    /// How many times wear counts what slides.
+    pub(super) fn cycles(&self) -> f64 {
+        1.0 + self.skipped
+    }
+}
+
+crate::keep!(Conditions {
     inertia,
     impulses,
     excluded,
     inner,
     skipped,
-    steady
+    steady,
+    pace
 });
