@@ -65,7 +65,7 @@ pub fn audit(folder: &Path) -> Result<Report, String> {
         {
             Some(key) => {
                 if let Some(height) = table.and_then(waves).filter(|_| *key == "roughness") {
-                    overlap::penetration(&results, pair, (&scale, height), &mut report);
+                    overlap::penetration(&results, pair, &scale, height, &mut report);
                 }
                 report.skip(format!(
                     "where the surfaces of {} are, with `{key}`",

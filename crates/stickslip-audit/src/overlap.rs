@@ -23,19 +23,14 @@ pub fn check(
     if pair.tied {
         return tied(results, pair, report);
     }
-    penetration(results, pair, (sizes, 0.0), report);
+    penetration(results, pair, sizes, 0.0, report);
     gaps(results, pair, sizes, report);
     apart(results, pair, sizes, report);
     slips(results, pair, sizes, bulk, report);
 }
 
 /// How deep the surfaces lie in each other beyond what points and laws say. Of a rough surface the real one is up to `rough` off the mesh.
-pub fn penetration(
-    results: &Results,
-    pair: &Pair,
-    (sizes, rough): (&Scale, f64),
-    report: &mut Report,
-) {
+pub fn penetration(results: &Results, pair: &Pair, sizes: &Scale, rough: f64, report: &mut Report) {
     let started = depths(results, pair, None);
     for (i, state) in results.states.iter().enumerate() {
         let step = &results.case.steps[results.case.step_at(state.t)];
@@ -168,7 +163,7 @@ fn apart(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
         let (x, t) = places(results, Some(i));
         let values = at(state);
         let presses = |n: &usize| nodes.contains(n) && values[*n].pressure > 0.0;
-        let least = around(&results.mesh, (facets, other), &x, presses);
+        let least = around(&results.mesh, facets, other, &x, presses);
         for (node, (least, covered)) in least {
             let point = &values[node];
             let beyond = least - point.gap;
@@ -183,7 +178,8 @@ fn apart(results: &Results, pair: &Pair, sizes: &Scale, report: &mut Report) {
 /// Of each wanted node the least gap of places all over the facets around it, and the part of them that have something opposite.
 fn around(
     mesh: &crate::mesh::Mesh,
-    (facets, other): (&[crate::mesh::Facet], &[crate::mesh::Facet]),
+    facets: &[crate::mesh::Facet],
+    other: &[crate::mesh::Facet],
     x: &[Vec3],
     wanted: impl Fn(&usize) -> bool,
 ) -> std::collections::BTreeMap<usize, (f64, f64)> {
@@ -470,7 +466,7 @@ mod tests {
             facets: Vec::new(),
         };
         let sides = ([facet([3, 4, 5], 1)], [facet([0, 1, 2], 0)]);
-        let found = around(&mesh, (&sides.0, &sides.1), &x, |n| *n == 3);
+        let found = around(&mesh, &sides.0, &sides.1, &x, |n| *n == 3);
         assert_eq!(found.len(), 1);
         let (least, covered) = found[&3];
         assert!((least - 1.0).abs() < 1e-12 && covered == 1.0, "{found:?}");

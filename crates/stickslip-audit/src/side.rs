@@ -168,7 +168,7 @@ pub fn foot(mesh: &Mesh, facets: &[Facet], at: &[Vec3], x: Vec3) -> Option<Foot>
         return foot_on_edge(mesh, facets, at, x, edge);
     }
     let around: Vec<&Facet> = facets.iter().filter(|f| f.nodes.contains(tip)).collect();
-    if !beneath(mesh, &around, at, (x, at[*tip])) || on_border(&around, *tip) {
+    if !beneath(mesh, &around, at, x, at[*tip]) || on_border(&around, *tip) {
         return None;
     }
     Some(Foot {
@@ -180,7 +180,7 @@ pub fn foot(mesh: &Mesh, facets: &[Facet], at: &[Vec3], x: Vec3) -> Option<Foot>
 }
 
 /// Whether all facets around a place face away from a point.
-fn beneath(mesh: &Mesh, around: &[&Facet], at: &[Vec3], (x, place): (Vec3, Vec3)) -> bool {
+fn beneath(mesh: &Mesh, around: &[&Facet], at: &[Vec3], x: Vec3, place: Vec3) -> bool {
     around
         .iter()
         .all(|f| dot(sub(x, place), outward(mesh, f, at)) < 0.0)
@@ -219,7 +219,7 @@ fn foot_on_edge(
     let place = add(scale(1.0 - s, at[a]), scale(s, at[b]));
     let beside = |f: &&Facet| f.nodes.contains(&a) && f.nodes.contains(&b);
     let both: Vec<&Facet> = facets.iter().filter(beside).collect();
-    if both.len() < 2 || !beneath(mesh, &both, at, (x, place)) {
+    if both.len() < 2 || !beneath(mesh, &both, at, x, place) {
         return None;
     }
     let normals = both.iter().map(|f| outward(mesh, f, at));

@@ -25,7 +25,7 @@ pub fn closing(analysis: &Analysis, directory: &Path, verbose: bool) {
     let dim = analysis.model.dofs.dim;
     let size = analysis.model.mesh.diameter();
     for interface in &s.interfaces {
-        for line in physics(interface, (dim, size), &time) {
+        for line in physics(interface, dim, size, &time) {
             say(&line);
         }
     }
@@ -65,7 +65,7 @@ fn effort(s: &Summary) -> String {
 }
 
 /// What an interface carries, in the units of the problem.
-fn physics(i: &InterfaceSummary, (dim, size): (usize, f64), time: &str) -> Vec<String> {
+fn physics(i: &InterfaceSummary, dim: usize, size: f64, time: &str) -> Vec<String> {
     let kind = if i.tied { "tie" } else { "interface" };
     let mut lines = vec![format!(
         "{} {} at time {time}, forces on its secondary",

@@ -88,7 +88,9 @@ fn resisting(analysis: &Analysis) -> Vec<f64> {
 fn vector(
     analysis: &Analysis,
     values: &[f64],
-    (point, turns, key): (usize, bool, &str),
+    point: usize,
+    turns: bool,
+    key: &str,
 ) -> Option<Vec3> {
     let model = analysis.model;
     let links = &model.links;
@@ -203,7 +205,7 @@ impl Printer {
                     global,
                     when,
                 } if self.due(when) => {
-                    self.nodes(analysis, &mut out, (set, keys, *totals, *global));
+                    self.nodes(analysis, &mut out, set, keys, *totals, *global);
                 }
                 Print::Element {
                     set,
@@ -212,7 +214,7 @@ impl Printer {
                     global,
                     when,
                 } if self.due(when) => {
-                    self.elements(analysis, &mut out, (set, keys, *totals, *global));
+                    self.elements(analysis, &mut out, set, keys, *totals, *global);
                 }
                 Print::Section { surface, when } if self.due(when) => {
                     let faces = self.surfaces.get(surface).map_or(&[][..], Vec::as_slice);
@@ -224,7 +226,7 @@ impl Printer {
                     totals,
                     when,
                 } if self.due(when) => {
-                    self.contact(analysis, &mut out, (pair.as_ref(), keys, *totals))
+                    self.contact(analysis, &mut out, pair.as_ref(), keys, *totals)
                 }
                 _ => {}
             }
@@ -254,7 +256,10 @@ impl Printer {
         &self,
         analysis: &Analysis,
         out: &mut String,
-        (set, keys, totals, global): (&str, &[String], Totals, bool),
+        set: &str,
+        keys: &[String],
+        totals: Totals,
+        global: bool,
     ) {
         let dofs = analysis.model.dofs;
         let Some(nodes) = self.node_sets.get(set) else {
@@ -321,7 +326,7 @@ impl Printer {
             }
             for node in nodes {
                 let at_point = self.points.get(node);
-                let at_point = at_point.and_then(|p| vector(analysis, &values, (*p, turns, key)));
+                let at_point = at_point.and_then(|p| vector(analysis, &values, *p, turns, key));
                 let Some(mut v) = at_point.or_else(|| drawn(node, key)) else {
                     continue;
                 };
@@ -349,7 +354,10 @@ impl Printer {
         &self,
         analysis: &Analysis,
         out: &mut String,
-        (set, keys, totals, global): (&str, &[String], Totals, bool),
+        set: &str,
+        keys: &[String],
+        totals: Totals,
+        global: bool,
     ) {
         let Some(elements) = self.element_sets.get(set) else {
             return;
@@ -376,7 +384,7 @@ impl Printer {
                     out.push_str(&title(what));
                     for (id, cell) in elements.iter().filter_map(|id| Some((id, by_id.get(id)?))) {
                         let axes = self.element_axes.get(id).filter(|_| !global);
-                        tensors(out, &self.label(*id), cell, (key, axes));
+                        tensors(out, &self.label(*id), cell, key, axes);
                     }
                 }
                 "ELSE" | "EVOL" => {
@@ -419,7 +427,9 @@ impl Printer {
         &self,
         analysis: &Analysis,
         out: &mut String,
-        (pair, keys, totals): (Option<&(String, String)>, &[String], Totals),
+        pair: Option<&(String, String)>,
+        keys: &[String],
+        totals: Totals,
     ) {
         let of_pair = |i: &&Interface| match pair {
             Some((slave, master)) => self
@@ -484,7 +494,7 @@ impl Printer {
                             _ => Part::Whole,
                         };
                         let names = (slave.as_str(), master.as_str());
-                        statistics(analysis, interface, out, (part, names, self.time));
+                        statistics(analysis, interface, out, part, names, self.time);
                     }
                 }
                 _ => {}
@@ -547,12 +557,7 @@ fn count_in_contact(analysis: &Analysis, interface: &Interface) -> usize {
 }
 
 /// Stresses, or strains, of an element at its points.
-fn tensors(
-    out: &mut String,
-    label: &str,
-    cell: &CellState,
-    (key, axes): (&str, Option<&[Vec3; 3]>),
-) {
+fn tensors(out: &mut String, label: &str, cell: &CellState, key: &str, axes: Option<&[Vec3; 3]>) {
     for (i, p) in cell.points.iter().enumerate() {
         // Shear strains are those of the tensor, half of ours.
         let v = match key {
@@ -591,7 +596,9 @@ fn statistics(
     analysis: &Analysis,
     interface: &Interface,
     out: &mut String,
-    (part, (slave, master), t): (Part, (&str, &str), f64),
+    part: Part,
+    (slave, master): (&str, &str),
+    t: f64,
 ) {
     let u = &analysis.frame.state.u;
     let r = look::resultant(interface.view(), u);

@@ -59,7 +59,7 @@ pub(crate) fn print(
             sums.add(mesh, elastic, *facet, &by_point);
         }
     }
-    sums.write(out, (name, at));
+    sums.write(out, name, at);
 }
 
 impl Sums {
@@ -109,7 +109,7 @@ impl Sums {
     }
 
     /// The block of the `.dat` file.
-    fn write(&self, out: &mut String, (name, at): (&str, f64)) {
+    fn write(&self, out: &mut String, name: &str, at: f64) {
         let Sums { force, moment, .. } = *self;
         let centre = match self.area > 0.0 {
             true => self.first.map(|c| c / self.area),

@@ -23,14 +23,16 @@ impl Reader<'_> {
             None => card.written.clone(),
         };
         self.written.insert(card.keyword.clone(), what.clone());
-        self.count_beyond(kind, (what, 1), card.place, help);
+        self.count_beyond(kind, what, 1, card.place, help);
     }
 
     /// Elements of a type that is not computed.
     pub(super) fn elements_beyond(
         &mut self,
-        (kind, count): (&str, usize),
-        (what, help): (&'static str, &'static str),
+        kind: &str,
+        count: usize,
+        what: &'static str,
+        help: &'static str,
         place: Place,
     ) {
         let group = kind_of_elements(what);
@@ -38,7 +40,7 @@ impl Reader<'_> {
             Some(_) => format!("elements of type {kind}"),
             None => format!("elements of type {kind} ({what})"),
         };
-        self.count_beyond(group, (text, count), place, help);
+        self.count_beyond(group, text, count, place, help);
     }
 
     /// Whether there are things of the kind that elements of a type are.
@@ -50,7 +52,8 @@ impl Reader<'_> {
     fn count_beyond(
         &mut self,
         kind: Option<&'static str>,
-        (what, n): (String, usize),
+        what: String,
+        n: usize,
         place: Place,
         help: &'static str,
     ) {

@@ -61,7 +61,7 @@ impl Reader<'_> {
             } else if let Some(why) = unsupported {
                 let all = self.deck.elements.values();
                 let count = all.filter(|e| e.kind == kind).count();
-                self.elements_beyond((&kind, count), (why.what, why.help), place);
+                self.elements_beyond(&kind, count, why.what, why.help, place);
             }
         }
     }
@@ -87,7 +87,7 @@ impl Reader<'_> {
                 let wide =
                     |d: &&Data| Some(d.fields.len()) == card.data.first().map(|f| f.fields.len());
                 let count = card.data.iter().filter(wide).count();
-                self.elements_beyond((kind, count), (why.what, why.help), card.place);
+                self.elements_beyond(kind, count, why.what, why.help, card.place);
                 let ids = card.data.iter().filter_map(|d| whole(d.fields.first()?));
                 let ids = ids.map(|n| self.deck.numbering.of(self.scope, n));
                 self.skipped.extend(ids);

@@ -55,7 +55,8 @@ impl Reader<'_> {
     fn printed_set(
         &mut self,
         card: &Card,
-        (parameter, what): (&str, &str),
+        parameter: &str,
+        what: &str,
         known: impl Fn(&Deck, &str) -> bool,
     ) -> Option<String> {
         let Some(set) = card.get(parameter).map(|s| self.scoped(s)) else {
@@ -107,7 +108,7 @@ impl Reader<'_> {
         let global = || card.get("GLOBAL") == Some("YES");
         let print = match card.keyword.as_str() {
             "NODEPRINT" => self
-                .printed_set(card, ("NSET", "nodes"), |d, set| {
+                .printed_set(card, "NSET", "nodes", |d, set| {
                     d.node_sets.contains_key(set)
                 })
                 .map(|set| Print::Node {
@@ -118,7 +119,7 @@ impl Reader<'_> {
                     when,
                 }),
             "ELPRINT" => self
-                .printed_set(card, ("ELSET", "elements"), |d, set| {
+                .printed_set(card, "ELSET", "elements", |d, set| {
                     d.element_sets.contains_key(set)
                 })
                 .map(|set| Print::Element {

@@ -79,7 +79,7 @@ impl Reader<'_> {
                 continue;
             };
             if card.has("TIED") {
-                self.tied_pair(card, data, (slave, master), &adjust);
+                self.tied_pair(card, data, slave, master, &adjust);
                 continue;
             }
             self.deck.pairs.push(Pair {
@@ -99,7 +99,8 @@ impl Reader<'_> {
         &mut self,
         card: &Card,
         data: &Data,
-        (slave, master): (String, String),
+        slave: String,
+        master: String,
         adjust: &Option<Adjust>,
     ) {
         let Some(Adjust::Within(distance)) = adjust else {

@@ -130,7 +130,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets, mesh_name: 
         }
         if body.rigid.is_some() {
             job.out.line("rigid = true");
-        } else if turns_freely(job, (&held, bodies.space), body) {
+        } else if turns_freely(job, &held, bodies.space, body) {
             job.out.line("rotation = \"large\"");
             let message = format!(
                 "NLGEOM: body {} is held by nothing and may turn by any angle; its strains are taken as small",
@@ -157,7 +157,7 @@ fn held(job: &Job) -> BTreeSet<u64> {
 }
 
 /// Whether a body may turn by any angle: where motion is asked for with `NLGEOM`, and nothing holds its points one by one or ties them to others.
-fn turns_freely(job: &Job, (held, space): (&BTreeSet<u64>, Space), body: &Body) -> bool {
+fn turns_freely(job: &Job, held: &BTreeSet<u64>, space: Space, body: &Body) -> bool {
     let deck = job.deck;
     let moving = |s: &Step| s.nonlinear && s.is_dynamic();
     let joined = !deck.equations.is_empty()

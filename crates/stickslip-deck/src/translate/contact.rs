@@ -76,9 +76,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         let single = secondary.len() * primary.len() == 1;
         for (s, from) in &secondary {
             for (p, to) in &primary {
-                if s == p
-                    && !single
-                    && meet(job, bodies, (&pair.slave, &pair.master), (*s, pair.place))
+                if s == p && !single && meet(job, bodies, &pair.slave, &pair.master, *s, pair.place)
                 {
                     continue;
                 }
@@ -152,7 +150,7 @@ fn ties(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         let primary = parts(job, bodies, sets, &tie.master, true, tie.place);
         for (s, from) in &secondary {
             for (p, to) in &primary {
-                if s == p && meet(job, bodies, (&tie.slave, &tie.master), (*s, tie.place)) {
+                if s == p && meet(job, bodies, &tie.slave, &tie.master, *s, tie.place) {
                     continue;
                 }
                 let name = job.fresh("interface", &toml::name(&tie.name));
@@ -224,8 +222,10 @@ pub(super) fn surface_nodes(deck: &Deck, bodies: &Bodies, name: &str) -> BTreeSe
 fn meet(
     job: &mut Job,
     bodies: &Bodies,
-    (slave, master): (&str, &str),
-    (body, place): (usize, Place),
+    slave: &str,
+    master: &str,
+    body: usize,
+    place: Place,
 ) -> bool {
     let nodes = |name: &str| {
         let mut nodes = surface_nodes(job.deck, bodies, name);
@@ -606,7 +606,7 @@ fn changes(job: &mut Job) {
         for (step, (after, changed)) in courses(deck, name).into_iter().enumerate() {
             let Some(place) = changed else { continue };
             match (is_tied(&before), is_tied(&after)) {
-                (false, false) => change(job, (step, name, place), &before, &after),
+                (false, false) => change(job, step, name, place, &before, &after),
                 // It has an interface of its own from here on.
                 (true, false) => {}
                 (true, true) if before == after => {}
@@ -624,7 +624,9 @@ fn changes(job: &mut Job) {
 /// One change of an interaction: `(step, interaction, place)`, before and after.
 fn change(
     job: &mut Job,
-    (step, name, place): (usize, &str, Place),
+    step: usize,
+    name: &str,
+    place: Place,
     before: &Interaction,
     after: &Interaction,
 ) {

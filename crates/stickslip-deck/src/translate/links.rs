@@ -280,7 +280,7 @@ fn couple(
 }
 
 /// It is an error if an element is not of a kind that its card is for.
-fn is_of(job: &mut Job, link: &Link, kinds: &[&str], (card, place): (&str, Place)) -> bool {
+fn is_of(job: &mut Job, link: &Link, kinds: &[&str], card: &str, place: Place) -> bool {
     let known = kinds.contains(&link.kind);
     if !known {
         let label = job.deck.label(link.element);
@@ -313,7 +313,7 @@ fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u6
     for s in &deck.springs {
         for link in links(job, bodies, &s.set, ground) {
             let kinds = ["SPRINGA", "SPRING1", "SPRING2"];
-            if !is_of(job, &link, &kinds, ("*SPRING", s.place)) {
+            if !is_of(job, &link, &kinds, "*SPRING", s.place) {
                 continue;
             }
             let stiffness = format!("stiffness = {}", toml::number(s.stiffness));
@@ -348,7 +348,7 @@ fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u6
     for s in &deck.dashpots {
         for link in links(job, bodies, &s.set, ground) {
             let kinds = ["DASHPOTA", "DASHPOT1", "DASHPOT2"];
-            if !is_of(job, &link, &kinds, ("*DASHPOT", s.place)) {
+            if !is_of(job, &link, &kinds, "*DASHPOT", s.place) {
                 continue;
             }
             if let Some(list) = elongation(job, &link, &s.directions) {
@@ -369,7 +369,7 @@ fn gaps(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u64>)
     let deck = job.deck;
     for g in &deck.gaps {
         for link in links(job, bodies, &g.set, ground) {
-            if !is_of(job, &link, &["GAPUNI"], ("*GAP", g.place)) {
+            if !is_of(job, &link, &["GAPUNI"], "*GAP", g.place) {
                 continue;
             }
             let given = (g.direction != [0.0; 3]).then_some(g.direction);

@@ -29,7 +29,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) -> BTreeMap
     let forces = loads::forces_by_step(job).unwrap_or_default();
     let held = supports::by_step(job);
     for (node, name) in &names {
-        steps(job, (*node, name), (&forces, &held));
+        steps(job, *node, name, &forces, &held);
     }
     names
 }
@@ -71,12 +71,8 @@ fn section(job: &mut Job, bodies: &Bodies, sets: &mut Sets, p: &Pretension) -> O
 }
 
 /// What the steps do with a pretension: what `*BOUNDARY` prescribes, or else the force.
-fn steps(
-    job: &mut Job,
-    (node, name): (u64, &str),
-    (forces, held): (&[loads::Forces], &[supports::State]),
-) {
-    across(job, node, (forces, held));
+fn steps(job: &mut Job, node: u64, name: &str, forces: &[loads::Forces], held: &[supports::State]) {
+    across(job, node, forces, held);
     let key = toml::key(name);
     // A course is one table for all steps in which it is followed.
     let mut tables: BTreeMap<(bool, String), String> = BTreeMap::new();
@@ -135,7 +131,7 @@ fn steps(
 }
 
 /// Only the first direction of the node has a meaning.
-fn across(job: &mut Job, node: u64, (forces, held): (&[loads::Forces], &[supports::State])) {
+fn across(job: &mut Job, node: u64, forces: &[loads::Forces], held: &[supports::State]) {
     let of_forces = forces.iter().flat_map(|f| f.range((node, 1)..(node, 6)));
     let of_forces = of_forces.map(|((_, c), f)| (*c, f.what, f.place));
     let of_held = held.iter().flat_map(|s| s.range((node, 1)..(node, 6)));

@@ -39,7 +39,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies) {
             job.error(place, "nothing moves in a step that looks for modes", help);
         }
         match (&step.procedure, given) {
-            (Procedure::Static { .. }, Some(place)) => slide(job, bodies, &velocities, (i, place)),
+            (Procedure::Static { .. }, Some(place)) => slide(job, bodies, &velocities, i, place),
             (Procedure::Dynamic { .. }, Some(_)) => job.error(
                 step.place,
                 "*MOTION is about steady sliding, and a *DYNAMIC step would go on from it",
@@ -84,11 +84,11 @@ fn set(job: &Job, velocities: &mut Velocities, target: &Target, velocity: &Mater
 }
 
 /// The line of a step in which material moves.
-fn slide(job: &mut Job, bodies: &Bodies, velocities: &Velocities, (step, place): (usize, Place)) {
+fn slide(job: &mut Job, bodies: &Bodies, velocities: &Velocities, step: usize, place: Place) {
     let dim = bodies.dim();
     let mut entries = Vec::new();
     for (interface, slave, master) in job.pairs.clone() {
-        let sides = [slave, master].map(|name| side(job, bodies, velocities, (&name, place)));
+        let sides = [slave, master].map(|name| side(job, bodies, velocities, &name, place));
         let [Some(slave), Some(master)] = sides else {
             return;
         };
@@ -151,7 +151,8 @@ fn side(
     job: &mut Job,
     bodies: &Bodies,
     velocities: &Velocities,
-    (surface, place): (&str, Place),
+    surface: &str,
+    place: Place,
 ) -> Option<Moving> {
     let deck: &Deck = job.deck;
     let nodes = surface_nodes(deck, bodies, surface);

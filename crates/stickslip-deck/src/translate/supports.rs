@@ -230,7 +230,7 @@ fn support(
     let still = values.iter().flatten().all(|(_, fixed)| *fixed);
     let factor = match still {
         true => None,
-        false => course(job, &amplitude, &steps, (largest, first.place), &name),
+        false => course(job, &amplitude, &steps, largest, first.place, &name),
     };
     job.table("support", &name, first.place);
     job.out.line(&format!("set = {}", toml::text(&set)));
@@ -259,7 +259,8 @@ fn course(
     job: &mut Job,
     amplitude: &Option<String>,
     (active, kept): &When,
-    (value, place): (f64, Place),
+    value: f64,
+    place: Place,
     user: &str,
 ) -> Option<String> {
     match amplitude {
@@ -324,7 +325,7 @@ fn reference(
     let place = first.place;
     let given = values.iter().flatten().map(|v| v.value.abs());
     let largest = given.fold(0.0, f64::max);
-    let factor = course(job, amplitude, when, (largest, place), &name);
+    let factor = course(job, amplitude, when, largest, place, &name);
     job.table("support", &name, place);
     job.out.line(&format!("set = {}", toml::text(&set)));
     for (axis, v) in ["x", "y", "z"][..dim].iter().zip(values) {
@@ -374,7 +375,7 @@ fn local(
             return;
         }
         let name = job.fresh("coupling", &toml::name(&format!("{}-{node}", v.label)));
-        let factor = course(job, amplitude, when, (v.value, v.place), &name);
+        let factor = course(job, amplitude, when, v.value, v.place, &name);
         let terms: Vec<String> = ["x", "y", "z"][..bodies.dim()]
             .iter()
             .zip(axis)

@@ -42,7 +42,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let mut groups: Vec<_> = groups.into_iter().collect();
     groups.sort_by_key(|(_, (_, place, _))| *place);
     for (when, (nodes, place, label)) in groups {
-        field(job, bodies, sets, (&when, &nodes, place, &label));
+        field(job, bodies, sets, &when, &nodes, place, &label);
     }
 }
 
@@ -78,7 +78,10 @@ fn field(
     job: &mut Job,
     bodies: &Bodies,
     sets: &mut Sets,
-    (when, nodes, place, label): (&When, &BTreeMap<u64, f64>, Place, &str),
+    when: &When,
+    nodes: &BTreeMap<u64, f64>,
+    place: Place,
+    label: &str,
 ) {
     let Some(factor) = course(job, when, place, label) else {
         return;

@@ -190,7 +190,7 @@ impl<'a> Linearised<'a> {
                 for c in 0..d {
                     right[at] -= a[row * d + c] * known[i * d + c];
                 }
-                self.fill_row(&mut matrix, &active, (i, row), proximal);
+                self.fill_row(&mut matrix, &active, i, row, proximal);
             }
         }
         let scaled = match step {
@@ -211,7 +211,8 @@ impl<'a> Linearised<'a> {
         &self,
         matrix: &mut Mat<f64>,
         active: &[usize],
-        (i, row): (usize, usize),
+        i: usize,
+        row: usize,
         proximal: f64,
     ) {
         let d = self.problem.dimension;

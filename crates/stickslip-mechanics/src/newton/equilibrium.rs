@@ -73,7 +73,7 @@ pub(super) fn equilibrium(attempt: &mut Attempt, round: usize) -> Result<Converg
         reported.push(residual);
         let target = balance.target(settings.tolerance);
         if balance.is_met(out.multiplier_residual, target) {
-            return Ok(converged(attempt, balance, out, (iteration, round)));
+            return Ok(converged(attempt, balance, out, iteration, round));
         }
         if iteration == settings.max_iterations || chatters(attempt, &residuals) {
             break;
@@ -115,7 +115,8 @@ fn converged(
     attempt: &Attempt,
     balance: Balance,
     out: Assembler,
-    (iterations, rounds): (usize, usize),
+    iterations: usize,
+    rounds: usize,
 ) -> Converged {
     Converged {
         iterations,

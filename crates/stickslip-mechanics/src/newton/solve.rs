@@ -61,7 +61,7 @@ impl Newton {
         log: &mut dyn FnMut(&Progress),
     ) -> Result<Converged, StepFailure> {
         let begun = self.statistics.iterations;
-        let outcome = self.find(system, (from, at), log);
+        let outcome = self.find(system, from, at, log);
         match &outcome {
             Ok(_) => self.in_vain = 0,
             // What is given up from outside is begun again as if nothing had been.
@@ -74,7 +74,8 @@ impl Newton {
     fn find(
         &mut self,
         system: &mut System,
-        (from, at): (&State, &mut State),
+        from: &State,
+        at: &mut State,
         log: &mut dyn FnMut(&Progress),
     ) -> Result<Converged, StepFailure> {
         system.constraints.impose(&mut at.u);

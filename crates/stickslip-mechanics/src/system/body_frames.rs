@@ -305,7 +305,7 @@ impl BodyFrames {
                 let force = self.dofs.vector(forces, p);
                 if force != [0.0; 3] {
                     let place = pose.place(points[p], self.dofs.vector(u, p));
-                    self.hand_over((frame, &pose), (p, place), force, forces);
+                    self.hand_over(frame, &pose, p, place, force, forces);
                 }
             }
         }
@@ -314,8 +314,10 @@ impl BodyFrames {
     /// Replaces the force on a point by that in its frame, and adds what the frame gets.
     fn hand_over(
         &self,
-        (frame, pose): (&BodyFrame, &FramePose),
-        (p, place): (usize, Vec3),
+        frame: &BodyFrame,
+        pose: &FramePose,
+        p: usize,
+        place: Vec3,
         force: Vec3,
         forces: &mut [f64],
     ) {

@@ -126,14 +126,15 @@ impl View<'_> {
         if bad - from < SMALL * (to - from) {
             bad = from;
         }
-        Some(self.say_unbalanced(&holds, &motion, (to, bad), least(&holds, &at_end)))
+        Some(self.say_unbalanced(&holds, &motion, to, bad, least(&holds, &at_end)))
     }
 
     fn say_unbalanced(
         &self,
         holds: &Holds,
         motion: &Unheld,
-        (t, first): (f64, f64),
+        t: f64,
+        first: f64,
         wanted: Option<f64>,
     ) -> (Finding, RunError) {
         let push = self.push(&holds.all, motion, t);

@@ -306,7 +306,7 @@ impl View<'_> {
                 gate.note_in_motion(&TIE_OPENING, &place, pair, limits.tie_opening, t);
             }
             let between = look::between(interface, &self.frame.state.u, t);
-            judge_between(interface, (between, approach), limits, (gate, &place, t));
+            judge_between(interface, between, approach, limits, gate, &place, t);
             if r.carried <= 0.0 {
                 continue;
             }
@@ -404,9 +404,12 @@ impl View<'_> {
 /// Judges what lies between the points of an interface whose bodies have come nearer elastically by `approach`.
 fn judge_between(
     interface: ContactView,
-    (between, approach): (Between, f64),
+    between: Between,
+    approach: f64,
     limits: &Limits,
-    (gate, place, t): (&mut Gate, &str, f64),
+    gate: &mut Gate,
+    place: &str,
+    t: f64,
 ) {
     let mut missed = between.penetration.max(between.apart);
     if approach == 0.0 && missed > 0.0 {

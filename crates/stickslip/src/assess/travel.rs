@@ -68,7 +68,7 @@ impl View<'_> {
             self.judge_rotations(&turns, limits, gate);
         }
         for (body, way, moved) in far {
-            self.note_far(&body, (way, moved), findings);
+            self.note_far(&body, way, moved, findings);
         }
     }
 
@@ -138,7 +138,7 @@ impl View<'_> {
     }
 
     /// A body in motion that has left the model, once for each.
-    fn note_far(&self, body: &str, (way, moved): (f64, f64), findings: &mut Vec<Finding>) {
+    fn note_far(&self, body: &str, way: f64, moved: f64, findings: &mut Vec<Finding>) {
         let known = |f: &Finding| {
             let about = |g: &Guilty| g.what == What::Body && g.name == body;
             f.cause == DoctorCause::FarAway && f.guilty.iter().any(about)

@@ -54,7 +54,7 @@ impl Integrator for Explicit {
         drift.predict(self, (&constraints.fixed, dt), &mut at);
         let more = self.correct((model, &*contact), &constraints, &mut drift, (&mut at, dt))?;
         let u = drift.place(&at.u);
-        self.evaluate((model, frame), contact, (&at, dt), &u)?;
+        self.evaluate(model, frame, contact, &at, dt, &u)?;
         let external = if !self.loaded {
             frame.load.clone()
         } else if model.frames.any_rigid() {
@@ -81,7 +81,7 @@ impl Integrator for Explicit {
         };
         let mut forces = vec![0.0; external.len()];
         let mut total = self.accelerate(&end, &mut at, &mut forces);
-        self.turn(&end, &mut at, (&mut forces, &drift), &mut total);
+        self.turn(&end, &mut at, &mut forces, &drift, &mut total);
         (self.exact_after).show(&more, &constraints.fixed, contact, &mut forces);
         let none = vec![0.0; u.len()];
         there.outward(&none, &mut forces);
@@ -206,9 +206,11 @@ impl Explicit {
     /// Forces of bodies, damping and interfaces at the end.
     fn evaluate(
         &mut self,
-        (model, frame): (&Model, &Frame),
+        model: &Model,
+        frame: &Frame,
         contact: &mut Contact,
-        (at, dt): (&State, f64),
+        at: &State,
+        dt: f64,
         u: &[f64],
     ) -> Result<(), StepFailure> {
         self.resist(model, u);
@@ -367,13 +369,7 @@ impl Explicit {
     }
 
     /// The same for rotations of rigid bodies, whose inertia is no diagonal.
-    fn turn(
-        &self,
-        end: &End,
-        at: &mut State,
-        (forces, drift): (&mut [f64], &Drift),
-        total: &mut Sums,
-    ) {
+    fn turn(&self, end: &End, at: &mut State, forces: &mut [f64], drift: &Drift, total: &mut Sums) {
         let (constraints, dt) = (end.constraints, end.dt);
         let from = &end.from.state;
         for spin in &self.spins {

@@ -189,7 +189,8 @@ impl Exact {
     fn solve(
         &self,
         mobility: &Mobility,
-        (b, size): (&[f64], &[f64]),
+        b: &[f64],
+        size: &[f64],
         x: &mut [f64],
     ) -> Result<(), StepFailure> {
         let dofs = &self.dofs;
@@ -270,7 +271,7 @@ impl Exact {
             *size += of;
         }
         let mut impulses = vec![0.0; off.len()];
-        self.solve(mobility, (&off, &size), &mut impulses)?;
+        self.solve(mobility, &off, &size, &mut impulses)?;
         let mut push = vec![0.0; u.len()];
         self.spread(&impulses, &mut push);
         let mut change = vec![0.0; u.len()];
@@ -309,7 +310,7 @@ impl Exact {
         let (b, size) = (self.sums(&seen), self.sizes(&seen));
         // The forces of the increment before are a good guess.
         let mut forces = self.forces.clone();
-        self.solve(mobility, (&b, &size), &mut forces)?;
+        self.solve(mobility, &b, &size, &mut forces)?;
         self.forces = forces;
         Ok(())
     }

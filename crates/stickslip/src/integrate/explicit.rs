@@ -279,8 +279,7 @@ impl Explicit {
         let couplings = &mut contact.couplings;
         couplings.use_springs(true);
         couplings.start_explicit(frame.state.t, &frame.state.u);
-        let most = (soon, explicit.frequency);
-        couplings.fit_springs(most, &explicit.inverse, &model.links);
+        couplings.fit_springs(soon, explicit.frequency, &explicit.inverse, &model.links);
         // What is in contact already bounds the first increment, too: the last evaluation, if there was one, was of other laws and multipliers.
         let alone = explicit.stable_alone().min(step.increments.largest);
         look_at_contact(model, frame, contact, soon, alone);

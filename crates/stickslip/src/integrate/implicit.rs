@@ -118,7 +118,7 @@ impl Implicit {
         let times = [trial.from, trial.to];
         // A trial increment of Euler's method finds forces, and hands nothing on.
         let impulse =
-            self.alphas != BACKWARD && is_impulse((model, &self.dynamic), contact, inertia, times);
+            self.alphas != BACKWARD && is_impulse(model, &self.dynamic, contact, inertia, times);
         let scheme = self.meeting(impulse);
         let weights = scheme.weights(impulse);
         let interfaces = contact.interfaces.iter_mut();
@@ -201,7 +201,7 @@ impl Implicit {
             reactions: converged.forces.iter().map(|f| weights[1] * f).collect(),
             contact: converged.contact.clone(),
             external,
-            elastic: scheme.elastic_work(model, frame, solver, (&at.u, &internal)),
+            elastic: scheme.elastic_work(model, frame, solver, &at.u, &internal),
             internal,
             state: at,
         };
@@ -278,13 +278,14 @@ impl Implicit {
     /// Elastic forces at the stage, with displacements and their forces at the end.
     fn elastic_at_stage(
         &self,
-        (model, frame): (&Model, &Frame),
+        model: &Model,
+        frame: &Frame,
         solver: &Solver,
         u: &[f64],
         internal: &[f64],
     ) -> Vec<f64> {
         let start = (frame.state.u.as_slice(), frame.motion.internal.as_slice());
-        solver.elastic_between(model, (self.alphas.alpha_f, start), (u, internal))
+        solver.elastic_between(model, (self.alphas.alpha_f, start), u, internal)
     }
 
     /// Work of the elastic forces of the scheme over the increment, less what is stored: for linear ones `(½ - α_f) Δuᵀ K Δu`.
@@ -293,14 +294,15 @@ impl Implicit {
         model: &Model,
         frame: &Frame,
         solver: &Solver,
-        (u, internal): (&[f64], &[f64]),
+        u: &[f64],
+        internal: &[f64],
     ) -> f64 {
         let du = difference(u, &frame.state.u);
         if model.corotations.is_empty() {
             let change = difference(internal, &frame.motion.internal);
             return (0.5 - self.alphas.alpha_f) * dot(&du, &change);
         }
-        let stage = self.elastic_at_stage((model, frame), solver, u, internal);
+        let stage = self.elastic_at_stage(model, frame, solver, u, internal);
         let stored = |u: &[f64]| solver.strain_energy(model, u);
         dot(&du, &stage) - (stored(u) - stored(&frame.state.u))
     }
@@ -315,7 +317,7 @@ impl Implicit {
         (u, external): (Vec<f64>, &[f64]),
     ) -> Guess {
         let internal = solver.elastic(model, &u);
-        let stage = self.elastic_at_stage((model, frame), solver, &u, &internal);
+        let stage = self.elastic_at_stage(model, frame, solver, &u, &internal);
         let known = (stage.as_slice(), external, weights[0]);
         let motion = (increment, spinning);
         let (mut forces, scale) = self.balance((model, frame), solver, motion, &u, known);
@@ -375,7 +377,7 @@ impl Implicit {
             converged.forces = (0..moved.len())
                 .map(|i| guess.forces[i] + stage[i] + converged.contact[i])
                 .collect();
-            solver.check_in_motion(model, (&converged, guess.scale), &at.u, &fixed)?;
+            solver.check_in_motion(model, &converged, guess.scale, &at.u, &fixed)?;
         }
         let both = guess.internal.iter().zip(&change);
         Ok((converged, both.map(|(a, b)| a + b).collect()))

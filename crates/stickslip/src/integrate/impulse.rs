@@ -37,7 +37,8 @@ const LOST: f64 = 1e6;
 
 /// Whether contact is an impulse over an increment: of masses alone, with what does not give way and does not move.
 pub(super) fn is_impulse(
-    (model, dynamic): (&Model, &Dynamic),
+    model: &Model,
+    dynamic: &Dynamic,
     contact: &Contact,
     inertia: &Inertia,
     [from, to]: [f64; 2],

@@ -3,7 +3,7 @@
 use super::implicit::{BACKWARD, Implicit, difference};
 use super::integrator::Integrator;
 use super::sight::frames_here;
-use crate::body::couplings::Couplings;
+use crate::body::couplings::{Couplings, MotionStart};
 use crate::contact::interface::{
     add_initial_forces, adopt_light_tractions, adopt_tractions, evaluate_laws,
     presses_light_points, set_masses, tried_tractions,
@@ -64,7 +64,7 @@ impl Implicit {
             step.increments.initial,
         );
         frame.load = frame.external(model, t);
-        let pressed = self.press_light(model, frame, contact, solver, (t, dt));
+        let pressed = self.press_light(model, frame, contact, solver, t, dt);
         let evaluated = initial_contact(model, frame, contact, t, dt).map_err(|e| e.at(t))?;
         let before = std::mem::replace(&mut frame.contact, evaluated);
         match self.tried_contact(model, frame, contact, solver, dt) {
@@ -72,7 +72,7 @@ impl Implicit {
             None => keep_light(model, frame, contact, solver, t, &pressed.unwrap_or(before)),
         }
         let lag = self.alphas.lag() * dt;
-        initial_acceleration(model, frame, contact, solver, (t, lag)).map_err(|e| e.at(t).into())
+        initial_acceleration(model, frame, contact, solver, t, lag).map_err(|e| e.at(t).into())
     }
 
     /// Lets points without mass go where overlap presses them, which takes them no time, with the forces there; `None` where none overlap, and where no equilibrium
@@ -83,7 +83,8 @@ impl Implicit {
         frame: &mut Frame,
         contact: &mut Contact,
         solver: &mut Solver,
-        (t, dt): (f64, f64),
+        t: f64,
+        dt: f64,
     ) -> Option<Vec<f64>> {
         let (before, at) = at_start(model, frame, t, dt);
         let stage = Stage {
@@ -193,7 +194,7 @@ impl Implicit {
             adopt_tractions(interface, tried);
         }
         let (u, v, at) = (&frame.state.u, &frame.state.v, t + AFTER * dt);
-        let add = |c: &Couplings, out: &mut [f64]| c.add_initial(at, (u, v), out);
+        let add = |c: &Couplings, out: &mut [f64]| c.add_initial(at, u, v, out);
         let known = coupling_forces(&contact.couplings, &model.links, u.len(), add);
         Some(short.iter().zip(known).map(|(a, b)| a + b).collect())
     }
@@ -225,7 +226,7 @@ fn start_motion(
     }
     let before = inertia.kinetic_energy(&frame.state.v);
     model.apply_initial_velocities(frame.step, &mut frame.state.v);
-    begin_along_mode(model, frame, &contact.couplings, (&inertia, solver));
+    begin_along_mode(model, frame, &contact.couplings, &inertia, solver);
     let energy = &mut frame.ledger;
     energy.kinetic = inertia.kinetic_energy(&frame.state.v);
     energy.initial += energy.kinetic - before;
@@ -242,7 +243,8 @@ fn begin_along_mode(
     model: &Model,
     frame: &mut Frame,
     couplings: &Couplings,
-    (inertia, solver): (&Inertia, &Solver),
+    inertia: &Inertia,
+    solver: &Solver,
 ) {
     let Some(kick) = &mut frame.kick else {
         return;
@@ -252,7 +254,7 @@ fn begin_along_mode(
     let rest = vec![0.0; n];
     // Bodies and springs are linear: the trapezoidal rule is exact.
     let forces = |u: &[f64]| -> Vec<f64> {
-        let add = |c: &Couplings, out: &mut [f64]| c.add_initial(t, (u, &rest), out);
+        let add = |c: &Couplings, out: &mut [f64]| c.add_initial(t, u, &rest, out);
         let coupled = coupling_forces(couplings, &model.links, n, add);
         let both = (solver.stiffness.times(u).into_iter()).zip(coupled);
         both.map(|(a, b)| a + b).collect()
@@ -313,7 +315,7 @@ pub(crate) fn initial_contact(
     frame.ledger.contact += stored;
     Spinning::new(&model.frames, u).outward(&vec![0.0; u.len()], &mut forces);
     contact.couplings.begin_motion(t, &frame.state.v);
-    (contact.couplings).add_initial(t, (u, &frame.state.v), &mut forces);
+    (contact.couplings).add_initial(t, u, &frame.state.v, &mut forces);
     model.links.transfer(&mut forces);
     Ok(forces)
 }
@@ -399,7 +401,8 @@ fn initial_acceleration(
     frame: &mut Frame,
     contact: &mut Contact,
     solver: &Solver,
-    (t, lag): (f64, f64),
+    t: f64,
+    lag: f64,
 ) -> Result<(), StepFailure> {
     let inertia = in_motion(&solver.inertia);
     let internal = &frame.motion.internal;
@@ -421,10 +424,16 @@ fn initial_acceleration(
         .map(|(b, f)| *b && !f)
         .collect();
     contact.couplings.start_motion(
-        (t, &model.links),
-        (&inertia.light, &free, &force),
+        &MotionStart {
+            t,
+            links: &model.links,
+            massless: &inertia.light,
+            bare: &free,
+            force: &force,
+        },
         &mut accelerate,
-        (&mut frame.state.a, &mut frame.contact),
+        &mut frame.state.a,
+        &mut frame.contact,
     )?;
     inertia.lead(model, contact, (t, &fixed), &mut frame.state.v);
     model.links.impose(&mut frame.state.a);

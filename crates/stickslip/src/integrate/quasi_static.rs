@@ -34,9 +34,9 @@ impl Integrator for QuasiStatic {
         let external = frame.external(model, trial.to);
         let constraints = frame.constraints(model, trial.to);
         (contact.couplings).fit(&solver.diagonal, &constraints.fixed, &model.links);
-        solver.carry_anchors((model, frame), &constraints, trial);
+        solver.carry_anchors(model, frame, &constraints, trial);
         if solver.condenser.at_rest().is_some() {
-            return solver.attempt_condensed(model, contact, (external, constraints), trial);
+            return solver.attempt_condensed(model, contact, external, constraints, trial);
         }
         let mut at = frame.extrapolated(trial);
         turn_with_supports(model, &frame.state.u, &constraints, &mut at.u);
@@ -50,7 +50,7 @@ impl Integrator for QuasiStatic {
         };
         let converged = solver.solve_sparse(model, contact, task, &mut at)?;
         check_change(model, pairs(&at.u, &frame.state.u))?;
-        check_way((model, contact), [&frame.state, &at], &fixed)?;
+        check_way(model, contact, [&frame.state, &at], &fixed)?;
         let external = match model.is_corotational() {
             // Pressures have followed.
             true => frame.external_at(model, trial.to, &at.u),
@@ -59,7 +59,7 @@ impl Integrator for QuasiStatic {
         Ok(Accepted {
             flow: Flow {
                 work: frame.work(&fixed, (&at.u, &converged.forces), &external),
-                transmitted: frame.transmitted(model, (&at.u, &converged.forces), &external),
+                transmitted: frame.transmitted(model, &at.u, &converged.forces, &external),
                 ..Flow::default()
             },
             strain: solver.strain_energy(model, &at.u),
@@ -96,7 +96,8 @@ impl Frame {
     pub(crate) fn transmitted(
         &self,
         model: &Model,
-        (u, forces): (&[f64], &[f64]),
+        u: &[f64],
+        forces: &[f64],
         external: &[f64],
     ) -> f64 {
         let dofs = model.dofs;

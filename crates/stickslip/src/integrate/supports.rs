@@ -22,7 +22,7 @@ pub(super) fn turn_with_supports(
 ) {
     let turning = model.elastic().filter(|b| b.elastic.is_corotational());
     for body in turning {
-        let Some(turn) = Turn::of(model, body, (before, guess), constraints) else {
+        let Some(turn) = Turn::of(model, body, before, guess, constraints) else {
             continue;
         };
         for p in body.points.clone() {
@@ -51,7 +51,8 @@ impl Turn {
     fn of(
         model: &Model,
         body: &Body,
-        (before, guess): (&[f64], &[f64]),
+        before: &[f64],
+        guess: &[f64],
         constraints: &Constraints,
     ) -> Option<Self> {
         let dofs = model.dofs;

@@ -62,7 +62,7 @@ impl QuasiStatic {
             };
             let sight = Sight::from(model, frame, &turns);
             let seen = sight.place(&model.mesh.points, &u);
-            let found = pass(&sight, model, contact, solver, (trial, passes), seen);
+            let found = pass(&sight, model, contact, solver, trial, passes, seen);
             let (met, accepted) = found?;
             let accepted = in_space(model, &sight.outlook(), accepted);
             if met {
@@ -82,7 +82,8 @@ fn pass(
     model: &Model,
     contact: &mut Contact,
     solver: &mut Solver,
-    (trial, passes): (Trial, usize),
+    trial: Trial,
+    passes: usize,
     u: Vec<f64>,
 ) -> Result<(bool, Accepted), StepFailure> {
     let inside = sight.inside(model);

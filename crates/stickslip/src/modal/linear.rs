@@ -213,13 +213,13 @@ impl Linear {
                 let shear = q > 0 && j > 0 && !point.steady;
                 let mean = 0.5 * (k + point.stiffness[j][q]);
                 if (q + j == 0 || shear) && mean != 0.0 {
-                    parts.dense(&block.dofs, (row(q), row(j)), mean, false);
+                    parts.dense(&block.dofs, row(q), row(j), mean, false);
                 }
             }
         }
         let approach = point.damping[0][0];
         if approach != 0.0 {
-            parts.dense(&block.dofs, (row(0), row(0)), approach, true);
+            parts.dense(&block.dofs, row(0), row(0), approach, true);
         }
         if point.steady {
             self.add_friction(point, &block);
@@ -403,13 +403,13 @@ impl Parts {
         let row = &block.rows[..block.dofs.len()];
         for (value, damping) in [(values.0, false), (values.1, true)] {
             if value != 0.0 {
-                self.dense(&block.dofs, (row, row), value, damping);
+                self.dense(&block.dofs, row, row, value, damping);
             }
         }
     }
 
     /// Adds `value a bᵀ`, by dofs as they come.
-    fn dense(&mut self, dofs: &[usize], (a, b): (&[f64], &[f64]), value: f64, damping: bool) {
+    fn dense(&mut self, dofs: &[usize], a: &[f64], b: &[f64], value: f64, damping: bool) {
         let n = dofs.len();
         let values = (0..n * n).map(|k| value * a[k / n] * b[k % n]).collect();
         let to = if damping {

@@ -3,6 +3,7 @@
 use super::contact::Contact;
 use super::definition::{Model, Support};
 use super::frame::Frame;
+use crate::body::couplings::StepTimes;
 use crate::system::Constraints;
 
 impl Frame {
@@ -38,8 +39,8 @@ impl Frame {
             None => released.push((dof, force)),
             Some(row) => released.extend(row.map(|(d, factor)| (d, factor * force))),
         };
-        let span = (before, middle);
-        (contact.couplings).begin_step(span, &self.state.u, &mut let_go);
+        let times = StepTimes { before, middle };
+        (contact.couplings).begin_step(times, &self.state.u, &mut let_go);
         if step.dynamic.is_some() {
             // In motion what lets go lets go at once.
             self.released.clear();

@@ -80,7 +80,7 @@ impl Scene<'_> {
         let groups = groups(model, &ties);
         let all = groups.iter().map(|group| {
             let parts = parts(model, group, &rows, &modes);
-            let gram = resisted(model, &parts, (&held, &rows), (&modes, &ties, t));
+            let gram = resisted(model, &parts, &held, &rows, &modes, &ties, t);
             free(model, group, &parts, &gram, &modes)
         });
         all.flatten().collect()
@@ -150,8 +150,11 @@ fn parts(model: &Model, group: &[usize], rows: &[&Row], modes: &[Mode]) -> Vec<P
 fn resisted(
     model: &Model,
     parts: &[Part],
-    (held, rows): (&[bool], &[&Row]),
-    (modes, ties, t): (&[Mode], &[&Interface], f64),
+    held: &[bool],
+    rows: &[&Row],
+    modes: &[Mode],
+    ties: &[&Interface],
+    t: f64,
 ) -> Vec<Vec<f64>> {
     let several = parts
         .iter()

@@ -308,7 +308,7 @@ fn block<'a>(
     field: &impl Fn(&str) -> Option<&'a Field>,
 ) -> Option<Block> {
     let at = |name: &'static str, source: &str, components: &'static [&'static str], shape| {
-        plain(field(source)?, points, (name, components, shape))
+        plain(field(source)?, points, name, components, shape)
     };
     match quantity {
         Quantity::Displacement => at("DISP", "U", &["D1", "D2", "D3"], Shape::Vector),
@@ -331,7 +331,9 @@ fn block<'a>(
 fn plain(
     field: &Field,
     points: &[usize],
-    (name, components, shape): (&'static str, &'static [&'static str], Shape),
+    name: &'static str,
+    components: &'static [&'static str],
+    shape: Shape,
 ) -> Option<Block> {
     let count = shape.count();
     let values = points

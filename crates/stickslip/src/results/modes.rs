@@ -41,7 +41,7 @@ pub(crate) fn write(
         csv::write(&path, &response_table(response))?;
         if outcome.shapes {
             let rows = response.rows.iter().map(|row| (row.frequency, &row.shape));
-            write_shapes((directory, &stem), analysis, mesh, rows)?;
+            write_shapes(directory, &stem, analysis, mesh, rows)?;
         }
         return Ok(());
     }
@@ -66,12 +66,13 @@ pub(crate) fn write(
     }
     let modes = outcome.modes.iter().enumerate();
     let modes = modes.map(|(k, mode)| (k as f64 + 1.0, &mode.shape));
-    write_shapes((directory, &stem), analysis, mesh, modes)
+    write_shapes(directory, &stem, analysis, mesh, modes)
 }
 
 /// Writes shapes with a list of them, by number or frequency.
 fn write_shapes<'a>(
-    (directory, stem): (&Path, &str),
+    directory: &Path,
+    stem: &str,
     analysis: &Analysis,
     mesh: &PackedMesh,
     shapes: impl Iterator<Item = (f64, &'a [Vec<f64>; 2])>,

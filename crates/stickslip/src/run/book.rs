@@ -22,7 +22,7 @@ pub(crate) fn book(
         *summary.friction_solvers.entry(solver.clone()).or_insert(0) += 1;
     }
     let first = summary.increments == 0;
-    frame.ledger = ledger_after(model, contact, frame, (&accepted, first));
+    frame.ledger = ledger_after(model, contact, frame, &accepted, first);
     frame.coupled = contact.coupled(frame).stored();
     frame.state = accepted.state;
     frame.forces = accepted.forces;
@@ -50,7 +50,8 @@ pub(crate) fn ledger_after(
     model: &Model,
     contact: &Contact,
     frame: &Frame,
-    (accepted, first): (&Accepted, bool),
+    accepted: &Accepted,
+    first: bool,
 ) -> EnergyLedger {
     let followed = accepted.followed || first && pressed_at_start(model, contact, frame);
     // The energy of couplings counts with that of the bodies.

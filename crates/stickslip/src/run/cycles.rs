@@ -90,7 +90,7 @@ impl Simulation {
                 if single { 1 } else { n }
             }
         };
-        self.set_block(&mut running, (before, stands_for), period);
+        self.set_block(&mut running, before, stands_for, period);
         self.trying = Some(Trying::from(start));
         running
     }
@@ -99,7 +99,8 @@ impl Simulation {
     fn set_block(
         &mut self,
         running: &mut Increments,
-        (before, stands_for): (usize, usize),
+        before: usize,
+        stands_for: usize,
         period: f64,
     ) {
         let block = Block { before, stands_for };
@@ -131,7 +132,7 @@ impl Simulation {
         }
         self.flush(observers)?;
         if self.wears() {
-            return self.end_wearing_block(running, (chosen, period, count), observers);
+            return self.end_wearing_block(running, chosen, period, count, observers);
         }
         let change = self.judge_block(&mut running.jumps);
         let n = stands_for as f64;
@@ -172,7 +173,9 @@ impl Simulation {
     fn end_wearing_block(
         &mut self,
         running: &mut Increments,
-        (chosen, period, count): (ChosenJump, f64, usize),
+        chosen: ChosenJump,
+        period: f64,
+        count: usize,
         observers: &mut [&mut dyn Observer],
     ) -> Result<(), Error> {
         let Block { before, stands_for } = self.frame.block;
@@ -208,7 +211,7 @@ impl Simulation {
                     first: Some(worn),
                     ..trial
                 });
-                self.set_block(running, (after, next), period);
+                self.set_block(running, after, next, period);
                 return Ok(());
             }
             Some(trial) => {

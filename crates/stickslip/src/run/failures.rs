@@ -44,11 +44,12 @@ impl Simulation {
     pub(crate) fn examine(
         &mut self,
         trial: &Trial,
-        (attempt, counters): (usize, doctor::Counters),
+        attempt: usize,
+        counters: doctor::Counters,
         failure: &StepFailure,
     ) {
         if failure.cause != Cause::Event {
-            let finding = doctor::diagnose(&view!(self), (trial, attempt, counters), failure);
+            let finding = doctor::diagnose(&view!(self), trial, attempt, counters, failure);
             doctor::note(&mut self.summary.findings, finding);
         }
     }

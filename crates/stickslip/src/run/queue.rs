@@ -30,21 +30,29 @@ pub(crate) struct Pending {
     pub(super) found: Option<Candidates>,
 }
 
+/// What is due after an increment.
+pub(crate) struct Due {
+    pub fields: bool,
+    /// Of the history.
+    pub row: bool,
+}
+
 impl Pending {
     /// An increment and attempt of these numbers, for which fields and a row of the history are due or not.
     pub fn new(
         trial: Trial,
         accepted: Accepted,
-        (increment, attempt): (usize, usize),
-        (fields, row): (bool, bool),
+        increment: usize,
+        attempt: usize,
+        due: Due,
     ) -> Self {
         Pending {
             trial,
             accepted,
             increment,
             attempt,
-            fields,
-            row,
+            fields: due.fields,
+            row: due.row,
             seen: Vec::new(),
             after: None,
             before: None,

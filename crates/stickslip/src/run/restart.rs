@@ -76,7 +76,7 @@ impl Simulation {
             working,
             ..
         } = &checkpoint;
-        fits(&simulation, frame, (histories, working))?;
+        fits(&simulation, frame, histories, working)?;
         for step in &simulation.model.steps[..=frame.step] {
             // Their energies are in the ledger.
             simulation.contact.change_laws(step, |_| {});
@@ -159,7 +159,8 @@ fn integration(model: &Model, step: usize, explicit: Option<ExplicitState>) -> I
 fn fits(
     simulation: &Simulation,
     frame: &Frame,
-    (histories, working): (&[History], &Working),
+    histories: &[History],
+    working: &Working,
 ) -> Result<(), Error> {
     let n = simulation.model.dofs.count();
     let interfaces = simulation.contact.interfaces.len();

@@ -4,7 +4,7 @@ use super::position::Increments;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::queue::{Failed, Pending};
+use super::queue::{Due, Failed, Pending};
 use super::simulation::{Simulation, view};
 use crate::assess::doctor;
 use crate::contact::interface::set_masses;
@@ -331,13 +331,13 @@ impl Simulation {
             Err(failure) if failure.cause == Cause::Engine => {
                 // Interiors of those before it cannot be found any more.
                 self.pending.clear();
-                self.examine(&trial, (running.attempt, counters), &failure);
+                self.examine(&trial, running.attempt, counters, &failure);
                 return Err(self.give_up(failure, &trial).into());
             }
             // With half the increment it takes the same memory.
             Err(failure) if failure.cause == Cause::Memory => {
                 self.flush(observers)?;
-                self.examine(&trial, (running.attempt, counters), &failure);
+                self.examine(&trial, running.attempt, counters, &failure);
                 return Err(self.give_up(failure, &trial).into());
             }
             Err(failure) if failure.cause == Cause::Reach => {
@@ -439,7 +439,7 @@ impl Simulation {
             self.tell_notes(observers)?;
         }
         let waiting = !self.pending.is_empty();
-        (self.solver).set_out(&self.frame, &mut self.contact, (trial, waiting));
+        (self.solver).set_out(&self.frame, &mut self.contact, trial, waiting);
         Ok(())
     }
 
@@ -520,7 +520,13 @@ impl Simulation {
         let last = running.stepper.next().is_none();
         let due = last || plan.times.contains(&trial.to) || increment.is_multiple_of(plan.every);
         let row = due || increment.is_multiple_of(plan.history_every);
-        let pending = Pending::new(trial, accepted, (increment, running.attempt), (due, row));
+        let pending = Pending::new(
+            trial,
+            accepted,
+            increment,
+            running.attempt,
+            Due { fields: due, row },
+        );
         if pending.row {
             let advance = pending.advance();
             self.tell(observers, || Event::Accepted(&advance))?;
@@ -547,7 +553,7 @@ impl Simulation {
         } = failed;
         let seen = self.solver.seen.take();
         self.tell_iterations(&seen, observers);
-        self.examine(&trial, (running.attempt, counters), &failure);
+        self.examine(&trial, running.attempt, counters, &failure);
         running.attempt += 1;
         self.reject(&trial, &failure);
         let may_be = !matches!(failure.cause, Cause::NotFinite | Cause::CollapsedCell);

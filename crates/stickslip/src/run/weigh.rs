@@ -51,7 +51,7 @@ impl Simulation {
             let resolved = opened <= may || self.resolves(trial);
             let smallest = 0.5 * length < self.step().increments.smallest;
             let was_vain = running.vain;
-            if running.is_to_halve(length, (opened, may), resolved, smallest) {
+            if running.is_to_halve(length, [opened, may], resolved, smallest) {
                 self.contact.go_on_from(before);
                 let message = format!(
                     "the balance of energies opens by {opened:.3e} over the increment, more than its share of what the limit leaves"
@@ -110,7 +110,7 @@ impl Simulation {
     fn opened(&self, trial: Trial, accepted: &Accepted) -> [f64; 2] {
         let (model, frame) = (&self.model, &self.frame);
         let first = self.summary.increments == 0;
-        let ledger = ledger_after(model, &self.contact, frame, (accepted, first));
+        let ledger = ledger_after(model, &self.contact, frame, accepted, first);
         let mut quality = self.summary.energy_quality;
         quality.note(&ledger);
         let limit = model.quality.energy.unwrap_or(model.energy_limit);
@@ -153,7 +153,7 @@ impl Increments {
     fn is_to_halve(
         &mut self,
         length: f64,
-        (opened, may): (f64, f64),
+        [opened, may]: [f64; 2],
         resolved: bool,
         smallest: bool,
     ) -> bool {
@@ -219,7 +219,7 @@ mod tests {
         for halvings in 0..100 {
             let length = f64::powi(0.5, halvings);
             // What it may is a part of what the limit leaves for the time that is left.
-            let balance = (1e3 * length.powi(power), length);
+            let balance = [1e3 * length.powi(power), length];
             if !running.is_to_halve(length, balance, true, false) {
                 return (halvings, running.vain);
             }

@@ -14,12 +14,7 @@ const SAME: f64 = 1e-6;
 impl Solver {
     /// Lets anchors begin where supports carry bodies in the increment. Anchors that stayed behind would hold a body back that slides under a drive: it would
     /// tip about the support, and leave the surface that it slides on.
-    pub fn carry_anchors(
-        &mut self,
-        (model, frame): (&Model, &Frame),
-        to: &Constraints,
-        trial: Trial,
-    ) {
+    pub fn carry_anchors(&mut self, model: &Model, frame: &Frame, to: &Constraints, trial: Trial) {
         let floating = &mut self.floating;
         let Some((_, bodies)) = &floating.known else {
             return;

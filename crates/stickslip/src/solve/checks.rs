@@ -87,7 +87,8 @@ pub(crate) fn check_change(
 
 /// Refuses a solution that bodies which turn on axles that contact alone holds can have reached through each other only.
 pub(crate) fn check_way(
-    (model, contact): (&Model, &Contact),
+    model: &Model,
+    contact: &Contact,
     ends: [&State; 2],
     fixed: &[bool],
 ) -> Result<(), StepFailure> {

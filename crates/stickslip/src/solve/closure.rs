@@ -77,7 +77,7 @@ pub(crate) fn close(
     let mut u = frame.state.u.clone();
     let mut adrift = Vec::new();
     for _ in 0..MOST_STRETCHES {
-        let w = velocities(model, &clusters, (external, &pulls), &pushes);
+        let w = velocities(model, &clusters, external, &pulls, &pushes);
         if w.iter().all(|w| *w == 0.0) {
             break;
         }
@@ -134,7 +134,8 @@ pub(crate) fn close(
 fn velocities(
     model: &Model,
     clusters: &Clusters,
-    (external, pulls): (&[f64], &[f64]),
+    external: &[f64],
+    pulls: &[f64],
     pushes: &[Push],
 ) -> Vec<f64> {
     let dofs = model.dofs;
@@ -155,7 +156,7 @@ fn velocities(
         if basis.is_empty() {
             // One body that can only turn.
             if let [only] = members.as_slice() {
-                turn(only, (external, pulls), mass, &mut w);
+                turn(only, external, pulls, mass, &mut w);
             }
             continue;
         }
@@ -201,7 +202,7 @@ fn common(members: &[&FreeBody]) -> Vec<Vec3> {
 }
 
 /// Adds the motion that the load gives a body which can only turn, or of which a pretension has cut off a part: against that no load moves the part.
-fn turn(free: &FreeBody, (external, pulls): (&[f64], &[f64]), mass: f64, w: &mut [f64]) {
+fn turn(free: &FreeBody, external: &[f64], pulls: &[f64], mass: f64, w: &mut [f64]) {
     for (_, motion) in &free.motions {
         let parts = motion.iter().zip(external).map(|(m, f)| m * f);
         let (force, size) = parts.fold((0.0, 0.0), |(s, a): (f64, f64), p| (s + p, a + p.abs()));

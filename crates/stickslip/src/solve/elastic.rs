@@ -50,7 +50,8 @@ impl Solver {
         &self,
         model: &Model,
         (old, (before, known)): Start,
-        (u, internal): (&[f64], &[f64]),
+        u: &[f64],
+        internal: &[f64],
     ) -> Vec<f64> {
         let bodies = &model.corotations;
         if bodies.is_empty() {

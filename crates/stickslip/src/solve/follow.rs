@@ -133,7 +133,7 @@ impl Solver {
         contact: &mut Contact,
         trial: Trial,
     ) -> bool {
-        self.set_out(frame, contact, (trial, false));
+        self.set_out(frame, contact, trial, false);
         self.seen.tell(&Work::Following);
         let external = frame.loads(model, trial.to);
         let bodies = self.floating.bodies();
@@ -182,7 +182,7 @@ impl Solver {
 
     /// Lays anchors.
     pub fn anchor(&mut self, model: &Model, frame: &Frame, contact: &mut Contact, trial: Trial) {
-        self.set_out(frame, contact, (trial, false));
+        self.set_out(frame, contact, trial, false);
         let external = frame.loads(model, trial.to);
         let pushes = pushes(model, &external).into_iter();
         // What draws the parts of a bolt together is no load on the whole of it.
@@ -230,12 +230,7 @@ impl Solver {
 
     /// Takes note of where the increment at hand began, and of the gaps there, if bodies float in it. While increments are `pending` interfaces know
     /// more of the last state than displacements do.
-    pub fn set_out(
-        &mut self,
-        frame: &Frame,
-        contact: &mut Contact,
-        (trial, pending): (Trial, bool),
-    ) {
+    pub fn set_out(&mut self, frame: &Frame, contact: &mut Contact, trial: Trial, pending: bool) {
         if self.floating.bodies().is_empty() || self.floating.origin.is_some() {
             return;
         }

@@ -186,7 +186,7 @@ impl Inertia {
     ) {
         let free = self.bare.iter().zip(fixed).map(|(b, f)| *b && !f);
         let free: Vec<bool> = free.collect();
-        (contact.couplings).follow((t, &model.links), &free, x);
+        (contact.couplings).follow(t, &model.links, &free, x);
     }
 
     /// Makes the matrix for increments of about `dt` ready and returns the `dt` it is for.

@@ -91,7 +91,7 @@ pub fn lanczos(pencil: &Pencil, wanted: Wanted) -> RealModes {
         }
         let edge = edge(&found, &wanted, pencil.shift);
         let before = found.len();
-        let pass = pass(pencil, &wanted, (&found, edge), start, &mut out.solves);
+        let pass = pass(pencil, &wanted, &found, edge, start, &mut out.solves);
         found.extend(pass.converged);
         found.sort_by(|a, b| b.theta.total_cmp(&a.theta));
         start = pass.next;
@@ -152,7 +152,8 @@ struct Pass {
 fn pass(
     pencil: &Pencil,
     wanted: &Wanted,
-    (found, edge): (&[Mode], f64),
+    found: &[Mode],
+    edge: f64,
     start: Vec<Vec<f64>>,
     solves: &mut usize,
 ) -> Pass {

@@ -230,7 +230,7 @@ fn whole(mut all: Runs, files: &[PathBuf], output: PathBuf) -> Outcome {
         started.elapsed().as_secs_f64(),
         table.path.display()
     ));
-    ended((failed, plan.count()), poor, table.path)
+    ended(failed, plan.count(), poor, table.path)
 }
 
 /// One part of the runs, in a folder of its own.
@@ -289,11 +289,11 @@ fn part(mut all: Runs, files: &[PathBuf], output: &Path, share: Share) -> Outcom
         parts.display(),
         output.display()
     ));
-    ended((failed, own.len()), poor, work.shard.rows_file())
+    ended(failed, own.len(), poor, work.shard.rows_file())
 }
 
 /// What a sweep ends with, of which so many runs failed, and so many did not pass the quality gate.
-fn ended((failed, all): (usize, usize), poor: usize, table: PathBuf) -> Outcome {
+fn ended(failed: usize, all: usize, poor: usize, table: PathBuf) -> Outcome {
     match failed {
         0 if poor > 0 => Ok(ExitCode::from(crate::failure::CHECK)),
         0 => Ok(ExitCode::SUCCESS),

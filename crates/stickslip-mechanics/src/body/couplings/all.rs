@@ -1,6 +1,6 @@
 //! Couplings with all that they know.
 
-use super::definition::{Act, Coupling, CouplingsDefinition, Tie};
+use super::definition::{Act, Coupling, CouplingsDefinition, StepTimes, Tie};
 use super::drawn::draw;
 use super::elimination::Elimination;
 use super::memory::CouplingsMemory;
@@ -115,12 +115,7 @@ impl Couplings {
 
     /// Begins a step: equations that begin to act start from what their sums are at displacements `u`, and those that end hand out the forces
     /// they let go with, by dof `[N]`, as loads. Pretensions go on from force or shortening.
-    pub fn begin_step(
-        &mut self,
-        (before, middle): (Option<f64>, f64),
-        u: &[f64],
-        let_go: &mut dyn FnMut(usize, f64),
-    ) {
+    pub fn begin_step(&mut self, times: StepTimes, u: &[f64], let_go: &mut dyn FnMut(usize, f64)) {
         let Couplings {
             definition, memory, ..
         } = self;
@@ -130,14 +125,14 @@ impl Couplings {
             first = rows.end;
             match &coupling.tie {
                 Tie::Pretension(p) => {
-                    draw(memory, p, (before, middle), (rows, &coupling.rows), u);
+                    draw(memory, p, times, rows, &coupling.rows, u);
                     continue;
                 }
                 tie if !tie.firm() => continue,
                 _ => {}
             }
-            let was = before.is_some_and(|t| coupling.schedule.active(t));
-            let is = coupling.schedule.active(middle);
+            let was = times.before.is_some_and(|t| coupling.schedule.active(t));
+            let is = coupling.schedule.active(times.middle);
             for (i, row) in rows.zip(&coupling.rows) {
                 if is && !was {
                     memory.start[i] = row.sum(u);
@@ -170,19 +165,21 @@ impl Couplings {
     }
 
     /// Adds the forces of the last accepted state, which is at `u` with velocities `v`, to the internal ones, by dof.
-    pub fn add_initial(&self, t: f64, (u, v): (&[f64], &[f64]), out: &mut [f64]) {
-        self.add_forces(&self.memory.multipliers, (t, u, Some(v)), out);
+    pub fn add_initial(&self, t: f64, u: &[f64], v: &[f64], out: &mut [f64]) {
+        self.add_forces(&self.memory.multipliers, t, u, Some(v), out);
     }
 
     /// The same for the last attempt, which ended at `u`.
     pub fn add_tried(&self, t: f64, u: &[f64], out: &mut [f64]) {
-        self.add_forces(&self.iterate.now, (t, u, None), out);
+        self.add_forces(&self.iterate.now, t, u, None, out);
     }
 
     fn add_forces(
         &self,
         multipliers: &[f64],
-        (t, u, v): (f64, &[f64], Option<&[f64]>),
+        t: f64,
+        u: &[f64],
+        v: Option<&[f64]>,
         out: &mut [f64],
     ) {
         for (i, coupling, row) in self.rows() {

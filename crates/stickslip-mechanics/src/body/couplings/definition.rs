@@ -116,6 +116,15 @@ impl Act {
     }
 }
 
+/// Where a step begins: a time in the step before, if there was one, and one in the step itself `[s]`.
+#[derive(Debug, Clone, Copy)]
+pub struct StepTimes {
+    /// In the step before.
+    pub before: Option<f64>,
+    /// In the middle of the step.
+    pub middle: f64,
+}
+
 /// All couplings of a model, as the problem says them.
 #[derive(Debug, Clone, Default)]
 pub struct CouplingsDefinition {

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::definition::StepTimes;
 use super::memory::CouplingsMemory;
 use super::{Pretension, Row};
 
@@ -10,15 +11,16 @@ use super::{Pretension, Row};
 pub(super) fn draw(
     memory: &mut CouplingsMemory,
     p: &Pretension,
-    (before, middle): (Option<f64>, f64),
-    (rows, own): (Range<usize>, &[Row]),
+    times: StepTimes,
+    rows: Range<usize>,
+    own: &[Row],
     u: &[f64],
 ) {
     let count = p.shares.len();
     let across = rows.len() + 1 - 2 * count;
     let along = rows.start + across..rows.start + across + count;
     let equal = along.end..rows.end;
-    let (was, is) = (before.map(|t| p.pulled(t)), p.pulled(middle));
+    let (was, is) = (times.before.map(|t| p.pulled(t)), p.pulled(times.middle));
     match (was, is) {
         (Some(false), true) => {
             let whole: f64 = memory.forces[along.clone()].iter().sum();

@@ -96,7 +96,7 @@ impl Couplings {
 
     /// Stiffnesses of the springs in place of rigid stops: with these inverse masses by dof each has at most the squared frequency `highest` `[1/s²]`, that
     /// of the bodies, which makes increments shorter by a third at most; those that act at `t` share what there is. Equations of nothing that could move are idle.
-    pub fn fit_springs(&mut self, (t, highest): (f64, f64), inverse_mass: &[f64], links: &Links) {
+    pub fn fit_springs(&mut self, t: f64, highest: f64, inverse_mass: &[f64], links: &Links) {
         let of = |stops: bool| {
             let counts = |i: usize, c: &Coupling| match self.act(i, c, t) {
                 Act::Stopped(_) => 1.0,

@@ -14,6 +14,20 @@ const EXACTLY: f64 = 1e-15;
 /// Accelerations under forces, both by dof.
 type Accelerate<'a> = &'a mut dyn FnMut(&[f64]) -> Result<Vec<f64>, StepFailure>;
 
+/// Where a motion starts.
+pub struct MotionStart<'a> {
+    /// The time `[s]`.
+    pub t: f64,
+    /// Rigid bodies.
+    pub links: &'a Links,
+    /// Dofs of points without mass: rows with them are left as they are.
+    pub massless: &'a [bool],
+    /// Dofs without inertia that can move.
+    pub bare: &'a [bool],
+    /// Forces by dof, out of balance `[N]`.
+    pub force: &'a [f64],
+}
+
 /// Rows that are held. Dofs without inertia stand apart: nothing but the rows says where these go, and forces on them are carried by the rows at once.
 struct Held {
     /// Number of each row, and its terms of dofs with inertia.
@@ -103,7 +117,7 @@ impl Held {
 
 impl Couplings {
     /// The equations that act at `t`, but for those with points that are `massless`; those whose dofs are `bare` have none to be moved by.
-    fn held(&self, (t, links): (f64, &Links), massless: &[bool], bare: &[bool]) -> Held {
+    fn held(&self, t: f64, links: &Links, massless: &[bool], bare: &[bool]) -> Held {
         let mut held = Held {
             rows: Vec::new(),
             bare: Vec::new(),
@@ -132,11 +146,11 @@ impl Couplings {
 
     /// Lets dofs without inertia go on as the others in the equations at `t` do: `x` are velocities or accelerations. They have no inertia of their own by
     /// which they could go on otherwise, and would swing about these for ever.
-    pub fn follow(&self, at: (f64, &Links), bare: &[bool], x: &mut [f64]) {
+    pub fn follow(&self, t: f64, links: &Links, bare: &[bool], x: &mut [f64]) {
         if !bare.contains(&true) {
             return;
         }
-        let held = self.held(at, &vec![false; x.len()], bare);
+        let held = self.held(t, links, &vec![false; x.len()], bare);
         for (dof, value) in held.dofs.iter().zip(held.following(x)) {
             x[*dof] = value;
         }
@@ -152,14 +166,14 @@ impl Couplings {
     /// Those of `accelerate`.
     pub fn start_motion(
         &mut self,
-        at: (f64, &Links),
-        (massless, bare, force): (&[bool], &[bool], &[f64]),
+        start: &MotionStart,
         accelerate: Accelerate<'_>,
-        (a, out): (&mut [f64], &mut [f64]),
+        a: &mut [f64],
+        out: &mut [f64],
     ) -> Result<(), StepFailure> {
-        let held = self.held(at, massless, bare);
+        let held = self.held(start.t, start.links, start.massless, start.bare);
         let count = a.len();
-        let carried: Vec<f64> = held.dofs.iter().map(|d| force[*d]).collect();
+        let carried: Vec<f64> = held.dofs.iter().map(|d| start.force[*d]).collect();
         let mut multipliers = vec![0.0; held.rows.len()];
         let mut apply = |a: &mut [f64], m: &[f64]| -> Result<(), StepFailure> {
             let change = accelerate(&held.spread(m, count))?;

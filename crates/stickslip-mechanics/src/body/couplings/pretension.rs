@@ -42,7 +42,7 @@ pub struct Course {
 
 impl Course {
     /// A share of the value at a time, where that share was `start` when the step began.
-    fn at(&self, t: f64, (share, start): (f64, f64), (from, to): (f64, f64)) -> f64 {
+    fn at(&self, t: f64, share: f64, start: f64, from: f64, to: f64) -> f64 {
         match &self.table {
             Some(table) => share * table.at(t) * self.value,
             None => {
@@ -137,10 +137,10 @@ impl Pretension {
     pub(super) fn drawn(&self, t: f64, share: f64, start: f64) -> Drawn {
         match self.step(t) {
             Some((from, to, Draw::Force(course))) => {
-                Drawn::Force(course.at(t, (share, start), (*from, *to)))
+                Drawn::Force(course.at(t, share, start, *from, *to))
             }
             Some((from, to, Draw::Shortening(course))) => {
-                Drawn::Length(course.at(t, (1.0, start), (*from, *to)))
+                Drawn::Length(course.at(t, 1.0, start, *from, *to))
             }
             Some((.., Draw::Hold)) | None => Drawn::Length(start),
         }

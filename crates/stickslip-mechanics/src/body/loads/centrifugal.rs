@@ -91,8 +91,11 @@ impl LoadModel for Centrifugal {
             by_nodes!(
                 block.kind,
                 forces(
-                    (domain.mesh, domain.space, density),
-                    (block, &mut chosen.into_iter()),
+                    domain.mesh,
+                    domain.space,
+                    density,
+                    block,
+                    &mut chosen.into_iter(),
                     &acceleration,
                     &mut add
                 )
@@ -107,8 +110,11 @@ impl LoadModel for Centrifugal {
 
 /// Visits `∫ ρ N_i a dV` of every node of the chosen cells of a block, with the acceleration `a` given by the place `[m/s²]`.
 fn forces<const N: usize>(
-    (mesh, space, density): (&Mesh, Space, f64),
-    (block, cells): (&Block, &mut dyn Iterator<Item = usize>),
+    mesh: &Mesh,
+    space: Space,
+    density: f64,
+    block: &Block,
+    cells: &mut dyn Iterator<Item = usize>,
     acceleration: &dyn Fn(Vec3) -> Vec3,
     add: &mut dyn FnMut(usize, Vec3),
 ) {

@@ -58,31 +58,39 @@ pub(super) fn enclose(definition: &InterfaceDefinition, x: &[Vec3], out: &mut Ve
     around.map(|f| Bounds::around(f, x)).collect_into_vec(out);
 }
 
+/// Coordinates at a state and at the accepted one before, nothing where that does not matter, and where the facets lie.
+#[derive(Clone, Copy)]
+pub(super) struct Places<'a> {
+    pub x: &'a [Vec3],
+    pub before: &'a [Vec3],
+    pub bounds: &'a [Bounds],
+}
+
 /// The facet that a point belongs to, of those found by the search, and its projection there; the distance to the surface if it belongs to none.
 pub(super) fn closest(
     definition: &InterfaceDefinition,
     i: usize,
-    (x, before, bounds): (&[Vec3], &[Vec3], &[Bounds]),
+    places: Places,
     search: &Search,
     previous: Previous,
 ) -> Result<(usize, FacetPoint), f64> {
     let turned = search.facing.get(i).copied();
     let choice = Choice {
         facets: definition.facets(),
-        bounds,
+        bounds: places.bounds,
         candidates: search.candidates.get(i).map_or(&[], Vec::as_slice),
         margin: search.margin,
-        x,
+        x: places.x,
         reference: &definition.reference,
-        position: definition.points[i].position(x),
+        position: definition.points[i].position(places.x),
         outward: turned.unwrap_or(definition.points[i].normal),
         edge_tolerance: definition.edge_tolerance,
         walls: definition
             .walls
             .of(definition.facets(), &definition.reference),
-        before: match before.is_empty() {
-            true => (before, [0.0; 3]),
-            false => (before, definition.points[i].position(before)),
+        before: match places.before.is_empty() {
+            true => (places.before, [0.0; 3]),
+            false => (places.before, definition.points[i].position(places.before)),
         },
     };
     choice.closest(previous)
@@ -101,7 +109,11 @@ pub(in crate::contact) fn closest_of_all(
             closest(
                 definition,
                 i,
-                (x, &[], &bounds),
+                Places {
+                    x,
+                    before: &[],
+                    bounds: &bounds,
+                },
                 search,
                 Previous::default(),
             )

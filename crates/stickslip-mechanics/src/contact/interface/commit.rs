@@ -142,10 +142,12 @@ fn take_over(
     let (e, h) = (&interface.cache.last.points[i], &input.state.points[i]);
     let passed = pass(
         input,
-        (i, h),
+        i,
+        h,
         e,
         gap.unwrap_or(h.gap),
-        (increment.resolved, increment.dt),
+        increment.resolved,
+        increment.dt,
     );
     let (area, r) = (e.area, &e.response);
     let shear = passed.history.shear;
@@ -210,10 +212,12 @@ fn pressed_out(interface: InterfaceInput, i: usize, e: &Evaluation) -> f64 {
 /// A point over an increment. `gap`: at its start.
 fn pass(
     interface: InterfaceInput,
-    (i, h): (usize, &PointHistory),
+    i: usize,
+    h: &PointHistory,
     e: &Evaluation,
     gap: f64,
-    (resolved, dt): (bool, f64),
+    resolved: bool,
+    dt: f64,
 ) -> Passed {
     let r = &e.response;
     let frictional = interface.laws.friction_law().frictional();
@@ -230,7 +234,7 @@ fn pass(
     let [dissipated, uncertain, excess] = dissipated(interface, h, e, part, resolved);
     let path = rubbed(interface.definition, r, e.frames.before, e.moved);
     let pressed = (0.5 * (h.pressure + r.traction[0]) * path).max(0.0);
-    let worn = wears_off(interface, h, e, (pressed, dissipated), dt);
+    let worn = wears_off(interface, h, e, pressed, dissipated, dt);
     let whole = interface.points[i].area * interface.share;
     let covered = if whole > 0.0 { e.area / whole } else { 0.0 };
     // Slip so far goes along with the surface, as tractions do.

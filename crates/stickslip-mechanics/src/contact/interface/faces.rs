@@ -81,7 +81,7 @@ pub(super) fn integrate_faces(interface: InterfaceInput, geometry: &mut Geometry
             let all = faces.iter().zip(integrals).zip(opposite).zip(merged);
             for (((face, integral), opposite), &merged) in all {
                 if included(&face.points) {
-                    integrate((face, merged), &sides, opposite, &mut scratch, integral);
+                    integrate(face, merged, &sides, opposite, &mut scratch, integral);
                 } else {
                     integral.clear();
                 }
@@ -142,13 +142,7 @@ fn covered(interface: &InterfaceDefinition, search: &mut FaceSearch, at: &[Vec3]
             || (Scratch::default(), FaceIntegral::default()),
             |(scratch, integral), (face, opposite)| {
                 opposite.iter().any(|&f| ends[f]).then(|| {
-                    integrate(
-                        (face, Merged::default()),
-                        &sides,
-                        opposite,
-                        scratch,
-                        integral,
-                    );
+                    integrate(face, Merged::default(), &sides, opposite, scratch, integral);
                     integral.area
                 })
             },

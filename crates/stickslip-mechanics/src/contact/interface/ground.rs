@@ -190,7 +190,8 @@ impl Ground {
 
     /// Of facets whose matter moves along a direction; `None` where they are not plane.
     pub fn of_facets(
-        (facets, direction): (&[Facet], Vec3),
+        facets: &[Facet],
+        direction: Vec3,
         above: Above,
         extent: impl Fn(Vec3) -> f64,
     ) -> Option<Self> {

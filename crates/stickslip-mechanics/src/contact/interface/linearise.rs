@@ -98,7 +98,7 @@ fn line(
         return None;
     }
     let slid = !interface.laws.tied && before == Status::Slip;
-    let (stiffness, damping) = stiffness_and_damping(interface, i, e, (slid, dt));
+    let (stiffness, damping) = stiffness_and_damping(interface, i, e, slid, dt);
     let (mut dofs, mut rows) = (batch.dofs(e).to_vec(), tangent.rows.to_vec());
     geometry.in_space.gradients(&mut dofs, &mut rows);
     Some(LinearPoint {
@@ -121,7 +121,8 @@ fn stiffness_and_damping(
     interface: InterfaceInput,
     i: usize,
     e: &Evaluation,
-    (slid, dt): (bool, f64),
+    slid: bool,
+    dt: f64,
 ) -> (Mat3, Mat3) {
     let r = &e.response;
     let d = match interface.unknown() {

@@ -197,11 +197,7 @@ fn meeting_facets(
         let mut way = f64::INFINITY;
         for &f in &search.candidates[i] {
             way = way.min(along_ray(
-                &facets[f],
-                x,
-                speeds,
-                (position, v, offset),
-                largest,
+                &facets[f], x, speeds, position, v, offset, largest,
             ));
         }
         if way * largest > CLOSE * TOUCHING * point.size {
@@ -234,7 +230,9 @@ fn along_ray(
     facet: &Facet,
     x: &[Vec3],
     speeds: &[Vec3],
-    (position, v, offset): (Vec3, Vec3, f64),
+    position: Vec3,
+    v: Vec3,
+    offset: f64,
     largest: f64,
 ) -> f64 {
     let count = facet.nodes.len() as f64;

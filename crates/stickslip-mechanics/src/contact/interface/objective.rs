@@ -74,8 +74,11 @@ impl Sheet {
     /// All faces of some columns and layers, which look away from the axis or towards it.
     fn faces(
         &mut self,
-        (columns, layers): (usize, usize),
-        (outward, triangles, quadratic): (bool, bool, bool),
+        columns: usize,
+        layers: usize,
+        outward: bool,
+        triangles: bool,
+        quadratic: bool,
         x: &mut Vec<Vec3>,
     ) -> Vec<(ElementKind, Vec<usize>)> {
         let mut out = Vec::new();
@@ -121,8 +124,11 @@ fn drum(
     let part = 1.0 / AROUND as f64;
     let mut reference = Vec::new();
     let of_drum = sheet(1.0, 0.0, part, Some(AROUND)).faces(
-        (AROUND, layers),
-        (true, triangles, quadratic),
+        AROUND,
+        layers,
+        true,
+        triangles,
+        quadratic,
         &mut reference,
     );
     let facet = |(kind, nodes)| Facet {
@@ -138,8 +144,11 @@ fn drum(
     // The shoe has another size of cells, and reaches into the drum.
     let first = reference.len();
     let faces = sheet(0.995, 3.3 * part, 1.2 * part, None).faces(
-        (4, layers),
-        (false, triangles, quadratic),
+        4,
+        layers,
+        false,
+        triangles,
+        quadratic,
         &mut reference,
     );
     let inward = |x: Vec3| [-x[0], -x[1], 0.0];

@@ -1,7 +1,7 @@
 //! A contact point over a facet.
 
 use super::cache::Cache;
-use super::candidates::closest;
+use super::candidates::{Places, closest};
 use super::clamped::clamped_pair;
 use super::evaluation::{Batch, Evaluation};
 use super::finish::finish;
@@ -168,7 +168,11 @@ fn facet_of(
         });
         let held = interface.attempt.flips[i].goes_to_and_fro();
         let previous = Previous { facet, near, held };
-        let places = (&*geometry.x, &*geometry.before, &*geometry.bounds);
+        let places = Places {
+            x: &geometry.x,
+            before: &geometry.before,
+            bounds: &geometry.bounds,
+        };
         closest(interface.definition, i, places, &geometry.search, previous)
     };
     match found {

@@ -81,7 +81,7 @@ pub(super) fn wear_ground(interface: &mut Interface, volumes: &[f64], stage: &St
     let gained: BTreeMap<Place, f64> = (lost.into_iter())
         .map(|(place, volume)| (place, volume / ground.chart.area(place, ground.extent)))
         .collect();
-    let felt = feels(input, last, &gained, volumes, (&to, stage.at.t));
+    let felt = feels(input, last, &gained, volumes, &to, stage.at.t);
     let depths = &mut interface.state.ground;
     for (place, depth) in gained {
         *depths.places.entry(place).or_default() += depth;
@@ -101,7 +101,8 @@ fn feels(
     last: &Evaluations,
     gained: &BTreeMap<Place, f64>,
     volumes: &[f64],
-    (x, t): (&[Vec3], f64),
+    x: &[Vec3],
+    t: f64,
 ) -> Vec<f64> {
     let Some(ground) = &interface.hollows.ground else {
         return Vec::new();

@@ -55,7 +55,7 @@ pub(super) fn respond(met: Met, scene: &Scene, batch: &mut Batch) -> Evaluation 
             _ if scene.wants.pressed => Worn::default(),
             _ => {
                 let path = length(stencil.frame_before, slid);
-                softness(interface, i, (path, scene.dt), before.pressure)
+                softness(interface, i, path, scene.dt, before.pressure)
             }
         },
         closing: closing(interface, i, stencil.gap, scene.dt),

@@ -189,14 +189,22 @@ fn facets_that_are_skipped_would_not_have_been_chosen() {
                     let quick = super::candidates::closest(
                         &interface,
                         i,
-                        (&x, &[], &bounds),
+                        super::candidates::Places {
+                            x: &x,
+                            before: &[],
+                            bounds: &bounds,
+                        },
                         &search,
                         previous,
                     );
                     let full = super::candidates::closest(
                         &interface,
                         i,
-                        (&x, &[], &without),
+                        super::candidates::Places {
+                            x: &x,
+                            before: &[],
+                            bounds: &without,
+                        },
                         &search,
                         previous,
                     );

@@ -60,7 +60,8 @@ pub(super) fn hollow(i: usize, scene: &Scene, sides: &[(usize, f64)]) -> f64 {
 pub(super) fn softness(
     interface: InterfaceInput,
     i: usize,
-    (path, dt): (f64, f64),
+    path: f64,
+    dt: f64,
     pressure: f64,
 ) -> Worn {
     let laws = &interface.laws;
@@ -113,7 +114,7 @@ pub(super) fn wearing(
     for _ in 0..EVALUATIONS {
         let path = rubbed(interface.definition, &response, stencil.frame_before, moved);
         let pressure = response.traction[0].max(0.0);
-        let worn = softness(interface, i, (path, at.dt), pressure);
+        let worn = softness(interface, i, path, at.dt, pressure);
         let off = worn.depth(pressure) - at.worn.depth(pressure);
         let turned = worn.slope - at.worn.slope;
         if off.abs() <= SETTLED * worn.slope * pressure && turned.abs() <= SETTLED * worn.slope {
@@ -131,7 +132,8 @@ pub(super) fn wears_off(
     interface: InterfaceInput,
     h: &PointHistory,
     e: &Evaluation,
-    (pressed, dissipated): (f64, f64),
+    pressed: f64,
+    dissipated: f64,
     dt: f64,
 ) -> [f64; 2] {
     let path = rubbed(interface.definition, &e.response, e.frames.before, e.moved);

@@ -192,7 +192,7 @@ impl MeanPoint<'_> {
             };
             moment::remove((nodes, parts, self.x), axes, dim, &mut out.rows);
         }
-        remove_idle((all, first), parts, dim, out);
+        remove_idle(all, first, parts, dim, out);
         [moved, arm] = [moved, arm].map(|v| self.across.within(v));
         if self.carried.is_some() {
             // The distance of the two sides turns with them, be it gap or what counts as none.
@@ -217,7 +217,8 @@ impl MeanPoint<'_> {
 
 /// Removes nodes of the primary that have a part neither in gap nor in slip.
 fn remove_idle(
-    (all, first): (&mut Vec<(usize, f64)>, usize),
+    all: &mut Vec<(usize, f64)>,
+    first: usize,
     parts: &[NodeSums],
     dim: usize,
     out: &mut Stencil,

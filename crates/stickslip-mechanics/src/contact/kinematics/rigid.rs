@@ -47,7 +47,7 @@ pub struct RigidFoot {
 ///
 /// It is the angle by which the point itself has moved around the axis. A point at rest sees the surface go by with one velocity, `α = 0`; one that rides
 /// on the obstacle sees it at rest, `α` is the whole turn.
-fn followed((pose, pose_before): (&Pose, &Pose), x: Vec3, x_before: Vec3) -> Dual {
+fn followed(pose: &Pose, pose_before: &Pose, x: Vec3, x_before: Vec3) -> Dual {
     let turn = pose.turned_since(pose_before);
     if turn == 0.0 {
         return Dual::constant(0.0);
@@ -197,7 +197,7 @@ pub fn rigid_stencil(
         normal: anchor.normal,
         directions: tangents(anchor.normal, dim),
     };
-    let follow = followed((pose, pose_before), x, x_before);
+    let follow = followed(pose, pose_before, x, x_before);
     let turn = pose.turned_since(pose_before);
     let way = way(shape, pose, y, &foot, &from, (turn, follow), dim)?;
     let n = point.nodes.len() * dim;

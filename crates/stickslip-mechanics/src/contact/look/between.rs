@@ -96,7 +96,8 @@ pub(super) struct Side<'a> {
 impl<'a> Side<'a> {
     pub(super) fn new(
         facets: Vec<&'a Facet>,
-        (sizes, deep): (Vec<f64>, f64),
+        sizes: Vec<f64>,
+        deep: f64,
         x: &'a [Vec3],
         reference: &'a [Vec3],
     ) -> Self {
@@ -227,7 +228,7 @@ pub fn between(contact: ContactView, u: &[f64], t: f64) -> Between {
 /// secondary, each beside what lies opposite in the meshes, as near as what is glued `[m]`. Multipliers hold points or means over faces; what is between them may open.
 pub fn opening(contact: ContactView, u: &[f64]) -> f64 {
     let (rest, facets) = (&contact.reference, contact.facets());
-    let theirs = Side::new(facets.iter().collect(), (Vec::new(), 0.0), rest, rest);
+    let theirs = Side::new(facets.iter().collect(), Vec::new(), 0.0, rest, rest);
     let within = contact.initial.within.unwrap_or(GLUE);
     let glued = |&i: &usize| {
         contact
@@ -294,7 +295,8 @@ fn lowest_of_facets(contact: ContactView, facets: &[Facet], x: &[Vec3], lowest: 
     let deep = committed.fold(0.0_f64, |m, h| m.max(-h.gap));
     let theirs = Side::new(
         facets.iter().collect(),
-        (Vec::new(), deep),
+        Vec::new(),
+        deep,
         x,
         &contact.reference,
     );
@@ -317,7 +319,7 @@ fn lowest_of_facets(contact: ContactView, facets: &[Facet], x: &[Vec3], lowest: 
         .map(|s| cell_height(contact, s))
         .collect();
     let ours = contact.skin.iter().map(|s| &s.facet).collect();
-    let ours = Side::new(ours, (sizes, deep), x, &contact.reference);
+    let ours = Side::new(ours, sizes, deep, x, &contact.reference);
     let corners = corners(facets, x, &contact.reference);
     let gaps: Vec<Option<(usize, f64)>> = corners
         .par_chunks(CHUNK)

@@ -26,8 +26,8 @@ pub fn coarser(definition: &InterfaceDefinition) -> Option<f64> {
     let spacings =
         |facets: &[&Facet]| -> Vec<f64> { facets.iter().map(|f| spacing(f, x)).collect() };
     let (own, other) = (spacings(&ours), spacings(&theirs));
-    let below = Side::new(theirs.clone(), (Vec::new(), 0.0), x, x);
-    let above = Side::new(ours.clone(), (Vec::new(), 0.0), x, x);
+    let below = Side::new(theirs.clone(), Vec::new(), 0.0, x, x);
+    let above = Side::new(ours.clone(), Vec::new(), 0.0, x, x);
     // Gap, ratio and the larger spacing at each place.
     let mut pairs: Vec<[f64; 3]> = Vec::new();
     for (facet, &a) in ours.iter().zip(&own) {

@@ -26,7 +26,8 @@ pub struct Scratch {
 
 /// Integrates over `face`, of which the facets `candidates` may lie opposite and the nodes `merged` have no multiplier.
 pub fn integrate(
-    (face, merged): (&Face, Merged),
+    face: &Face,
+    merged: Merged,
     sides: &Sides,
     candidates: &[usize],
     scratch: &mut Scratch,
@@ -45,10 +46,10 @@ pub fn integrate(
         match face.kind.dim() {
             1 => Interval::new(&view, cell, normal)
                 .iter()
-                .for_each(|w| meet(w, &view, normal, (sides, candidates), scratch, out)),
+                .for_each(|w| meet(w, &view, normal, sides, candidates, scratch, out)),
             _ => Plane::new(&view, cell, normal)
                 .iter()
-                .for_each(|w| meet(w, &view, normal, (sides, candidates), scratch, out)),
+                .for_each(|w| meet(w, &view, normal, sides, candidates, scratch, out)),
         }
     }
     let covered: f64 = scratch.samples.iter().map(|s| s.w).sum();
@@ -64,7 +65,8 @@ fn meet<W: Window>(
     window: &W,
     view: &View,
     normal: Vec3,
-    (sides, candidates): (&Sides, &[usize]),
+    sides: &Sides,
+    candidates: &[usize],
     scratch: &mut Scratch,
     out: &mut FaceIntegral,
 ) {

@@ -60,7 +60,7 @@ impl Rim<'_> {
             let facet = &self.sides.facets[f];
             let mut nodes = [[0.0; 3]; FACET_NODES];
             let nodes = facet.gather(self.sides.x, &mut nodes);
-            let Some((edge, length)) = leave(facet.kind, nodes, m, (x, way)) else {
+            let Some((edge, length)) = leave(facet.kind, nodes, m, x, way) else {
                 return false;
             };
             x = add_scaled(x, length, way);
@@ -106,8 +106,7 @@ impl Rim<'_> {
         let Some(along) = normalize(flat) else {
             return false;
         };
-        let Some((edge, length)) = leave(self.face.kind, self.x, self.outward, (from, along))
-        else {
+        let Some((edge, length)) = leave(self.face.kind, self.x, self.outward, from, along) else {
             return false;
         };
         let continues = self.face.continues.get(edge).is_some_and(|&c| c);
@@ -134,7 +133,8 @@ fn leave(
     kind: ElementKind,
     x: &[Vec3],
     normal: Vec3,
-    (from, way): (Vec3, Vec3),
+    from: Vec3,
+    way: Vec3,
 ) -> Option<(usize, f64)> {
     let each = edges(kind).iter().enumerate();
     let left = each.filter_map(|(k, corners)| match **corners {
@@ -163,9 +163,9 @@ mod tests {
         let line = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
         let up = [0.0, 1.0, 0.0];
         let from = [0.5, 0.0, 0.0];
-        let right = leave(ElementKind::Line2, &line, up, (from, [1.0, 0.0, 0.0]));
+        let right = leave(ElementKind::Line2, &line, up, from, [1.0, 0.0, 0.0]);
         assert_eq!(right, Some((1, 1.5)));
-        let left = leave(ElementKind::Line2, &line, up, (from, [-1.0, 0.0, 0.0]));
+        let left = leave(ElementKind::Line2, &line, up, from, [-1.0, 0.0, 0.0]);
         assert_eq!(left, Some((0, 0.5)));
         let square = [
             [0.0, 0.0, 0.0],
@@ -181,7 +181,7 @@ mod tests {
             ([0.0, -1.0, 0.0], 0, 0.25),
             ([-1.0, 0.0, 0.0], 3, 0.5),
         ] {
-            let found = leave(ElementKind::Quad4, &square, z, (from, way));
+            let found = leave(ElementKind::Quad4, &square, z, from, way);
             assert_eq!(found, Some((edge, length)));
         }
     }

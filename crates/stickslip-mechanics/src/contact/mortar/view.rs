@@ -159,7 +159,8 @@ impl View<'_> {
     /// Whether a place has come behind a facet with normal `m` since the last accepted state: it was not beyond the wall then.
     fn enters(
         &self,
-        (wall, m): (&Wall, Vec3),
+        wall: &Wall,
+        m: Vec3,
         n: &[f64; FACE_NODES],
         opposite: &[f64; FACE_NODES],
     ) -> bool {
@@ -212,7 +213,7 @@ impl View<'_> {
         };
         let facing = -dot(normal, m);
         let (opposite, slopes) = shapes(facet.kind, *start);
-        let beyond = gap * facing < -wall.depth && !self.enters((wall, m), &n, &opposite);
+        let beyond = gap * facing < -wall.depth && !self.enters(wall, m, &n, &opposite);
         if facing < LEAST_FACING || beyond {
             return;
         }

@@ -103,7 +103,7 @@ impl Chart {
     }
 
     /// Of a sphere; of a circle in the plane.
-    pub fn sphere(centre: Vec3, radius: f64, (dim, spacing): (usize, f64)) -> Self {
+    pub fn sphere(centre: Vec3, radius: f64, dim: usize, spacing: f64) -> Self {
         let circle = Chart::cylinder((centre, [0.0, 0.0, 1.0]), radius, (dim, spacing));
         match dim {
             2 => circle,
@@ -263,9 +263,9 @@ mod tests {
             Chart::plane([0.1, 0.2, 0.3], axis, (3, 0.07)),
             Chart::plane([0.1, 0.2, 0.3], axis, (3, 0.07)).along([1.0, 1.0, 0.0]),
             Chart::cylinder(([0.1, 0.2, 0.3], axis), 0.5, (3, 0.07)),
-            Chart::sphere([0.1, 0.2, 0.3], 0.5, (3, 0.07)),
+            Chart::sphere([0.1, 0.2, 0.3], 0.5, 3, 0.07),
             Chart::plane([0.1, 0.2, 0.0], [0.6, 0.8, 0.0], (2, 0.07)),
-            Chart::sphere([0.0, 0.2, 0.0], 0.5, (2, 0.07)),
+            Chart::sphere([0.0, 0.2, 0.0], 0.5, 2, 0.07),
         ]
     }
 

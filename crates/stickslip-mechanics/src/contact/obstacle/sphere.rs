@@ -39,7 +39,7 @@ impl Shape for Sphere {
     }
 
     fn chart(&self, dim: usize, spacing: f64) -> Chart {
-        Chart::sphere(to_vec3(&self.centre), self.radius, (dim, spacing))
+        Chart::sphere(to_vec3(&self.centre), self.radius, dim, spacing)
     }
 
     fn faults(&self, dim: usize) -> Vec<(&'static str, String)> {

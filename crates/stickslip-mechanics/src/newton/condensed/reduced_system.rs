@@ -238,7 +238,7 @@ impl ReducedSystem {
         let tolerance = (tolerance * norm(b) / norm(&rhs).max(f64::MIN_POSITIVE))
             .clamp(TOLERANCES.0, TOLERANCES.1);
         let (rows, count) = Rows::of(tangent.blocks);
-        keep_gaps((&mut self.gaps, &mut self.seen), (&rows, count), &tangent);
+        keep_gaps(&mut self.gaps, &mut self.seen, &rows, count, &tangent);
         let gaps = self.gaps.as_ref();
         let (y, iterations) = solve_preconditioned(
             &tangent,
@@ -277,8 +277,10 @@ fn springs(condensation: &Condensation) -> Vec<Spring<'_>> {
 
 /// Keeps the compliance of gaps and slips while they are those of the solution before.
 fn keep_gaps(
-    (gaps, seen): (&mut Option<GapMatrix>, &mut Vec<[u64; 2]>),
-    (rows, count): (&[Rows], usize),
+    gaps: &mut Option<GapMatrix>,
+    seen: &mut Vec<[u64; 2]>,
+    rows: &[Rows],
+    count: usize,
     tangent: &Tangent,
 ) {
     let mut parts = tangent.condensation.parts.iter();

@@ -95,7 +95,7 @@ impl Substructure {
         let factor = started.elapsed().as_secs_f64();
         let started = Instant::now();
         let root = ordered.root();
-        let floating = free_motions((root, matrix.block_size()), &schur, place, typical)?;
+        let floating = free_motions(root, matrix.block_size(), &schur, place, typical)?;
         let held = floating
             .as_ref()
             .map_or((&[][..], 0.0), |(modes, sigma)| (&modes[..], *sigma));
@@ -175,7 +175,8 @@ impl Substructure {
 
 /// Orthonormal rigid motions that meet next to no stiffness, and what springs to hold them with.
 fn free_motions(
-    (root, dim): (&[u32], usize),
+    root: &[u32],
+    dim: usize,
     stiffness: &Schur,
     place: &dyn Fn(usize) -> Option<Vec3>,
     typical: f64,

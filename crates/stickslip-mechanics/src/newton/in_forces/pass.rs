@@ -86,7 +86,7 @@ impl<'a, 'b, 's> Pass<'a, 'b, 's> {
         let d = linear.dimension();
         let mut free = linear.unbalanced();
         let mut alone = linear.displacements(&free)?;
-        let Some((chosen, others)) = choose(&linear, &places, (restless, last), (d, &alone)) else {
+        let Some((chosen, others)) = choose(&linear, &places, restless, last, d, &alone) else {
             return Ok(None);
         };
         if !others.is_empty() {
@@ -96,7 +96,7 @@ impl<'a, 'b, 's> Pass<'a, 'b, 's> {
             free = linear.unbalanced();
             alone = linear.displacements(&free)?;
         }
-        let (forces, du) = search(&mut linear, &chosen, (free, alone), columns, account)?;
+        let (forces, du) = search(&mut linear, &chosen, free, alone, columns, account)?;
         let found: Vec<Found> = chosen
             .iter()
             .zip(forces.chunks(d))
@@ -169,8 +169,10 @@ type Few<'p> = Vec<&'p Place>;
 fn choose<'p>(
     linear: &Linear,
     places: &'p [Place],
-    (restless, last): (&[At], &[Found]),
-    (d, alone): (usize, &[f64]),
+    restless: &[At],
+    last: &[Found],
+    d: usize,
+    alone: &[f64],
 ) -> Option<(Few<'p>, Few<'p>)> {
     let before = |p: &Place| last.iter().any(|(at, _)| *at == p.at);
     let touching = places.iter().filter(|p| p.approaches(alone) || before(p));

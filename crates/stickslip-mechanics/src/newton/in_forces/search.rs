@@ -21,7 +21,8 @@ const ENOUGH: f64 = 1e-3;
 pub(super) fn search(
     linear: &mut Linear,
     chosen: &[&Place],
-    (free, alone): (Vec<f64>, Vec<f64>),
+    free: Vec<f64>,
+    alone: Vec<f64>,
     columns: &mut Columns,
     account: &mut Account,
 ) -> Result<(Vec<f64>, Vec<f64>), StepFailure> {

@@ -65,7 +65,7 @@ pub fn along(directory: &Path, file: Option<&Path>, wanted: &Along) -> Result<Ve
     }
     if let Some(field) = &wanted.field {
         let mut written = vec![file.clone()];
-        lines(&results, (&wanted.interface, field), wanted, &file)?;
+        lines(&results, &wanted.interface, field, wanted, &file)?;
         // Where something wears there is the other side of the scar as well.
         let opposite = format!("{}{OPPOSITE}", wanted.interface);
         let known = ["CWEAR", "CDISS"].contains(&field.as_str());
@@ -74,7 +74,7 @@ pub fn along(directory: &Path, file: Option<&Path>, wanted: &Along) -> Result<Ve
         let worn = sheet.transpose()?.flatten().is_some_and(|s| s.flat());
         if known && worn {
             let beside = files::beside(&file, "opposite");
-            lines(&results, (&opposite, field), wanted, &beside)?;
+            lines(&results, &opposite, field, wanted, &beside)?;
             written.push(beside);
         }
         return Ok(written);
@@ -118,7 +118,8 @@ pub fn along(directory: &Path, file: Option<&Path>, wanted: &Along) -> Result<Ve
 /// Draws a field along a surface, a line a time, or writes the table of these.
 fn lines(
     results: &Results,
-    (surface, field): (&str, &str),
+    surface: &str,
+    field: &str,
     wanted: &Along,
     file: &Path,
 ) -> Result<(), Error> {

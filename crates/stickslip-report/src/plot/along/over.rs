@@ -55,7 +55,7 @@ pub fn table(
     table.names.push("S".into());
     table.columns.push(arc.s);
     for (time, sheet) in &sheets {
-        let values = values(sheet, (&arc.points, &places), field).ok_or_else(|| {
+        let values = values(sheet, &arc.points, &places, field).ok_or_else(|| {
             wrong(format!(
                 "interface {interface} has no field `{field}` with one component; there are {}",
                 single(sheet).collect::<Vec<_>>().join(", ")
@@ -91,11 +91,7 @@ fn single(sheet: &Sheet) -> impl Iterator<Item = &str> {
 }
 
 /// Values at the points of the last time, zero where there was none yet.
-fn values(
-    sheet: &Sheet,
-    (points, places): (&[usize], &[[f64; 3]]),
-    field: &str,
-) -> Option<Vec<f64>> {
+fn values(sheet: &Sheet, points: &[usize], places: &[[f64; 3]], field: &str) -> Option<Vec<f64>> {
     let mut arrays = sheet.grid.points.arrays.iter();
     let (_, array) = arrays.find(|(name, a)| *name == field && a.components == 1)?;
     let bits = |x: &[f64; 3]| x.map(f64::to_bits);

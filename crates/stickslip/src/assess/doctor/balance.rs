@@ -93,9 +93,11 @@ fn beyond(view: &View, t: f64, slight: f64) -> Option<Finding> {
         let found = judge(
             &body.name,
             &push,
-            (mean, narrowest),
+            mean,
+            narrowest,
             force,
-            (NONE * scale_of_loads, slight),
+            NONE * scale_of_loads,
+            slight,
         );
         if let Some((cause, message)) = found {
             let finding = Finding::new(cause, Severity::Warning, message)
@@ -122,9 +124,11 @@ fn beyond(view: &View, t: f64, slight: f64) -> Option<Finding> {
 fn judge(
     name: &str,
     push: &Push,
-    (mean, narrowest): (Vec3, f64),
+    mean: Vec3,
+    narrowest: f64,
     force: Vec3,
-    (nothing, slight): (f64, f64),
+    nothing: f64,
+    slight: f64,
 ) -> Option<(DoctorCause, String)> {
     let mu = push.friction?;
     if norm(force) <= nothing {
@@ -218,13 +222,12 @@ mod tests {
             ..Push::default()
         };
         let up = [0.0, 1.0, 0.0];
-        let cause =
-            |force: Vec3| judge("block", &push, (up, 1.0), force, (1e-9, SLIGHT)).map(|f| f.0);
+        let cause = |force: Vec3| judge("block", &push, up, 1.0, force, 1e-9, SLIGHT).map(|f| f.0);
         assert_eq!(cause([0.29, -1.0, 0.0]), None);
         assert_eq!(cause([0.31, -1.0, 0.0]), Some(DoctorCause::SlidesAway));
         assert_eq!(cause([0.0, 0.1, 0.0]), Some(DoctorCause::SlidesAway));
         assert_eq!(cause([0.0; 3]), Some(DoctorCause::FreeRigidMode));
         // A seat that holds from both sides.
-        assert!(judge("pin", &push, (up, -0.2), [0.0; 3], (1e-9, SLIGHT)).is_none());
+        assert!(judge("pin", &push, up, -0.2, [0.0; 3], 1e-9, SLIGHT).is_none());
     }
 }

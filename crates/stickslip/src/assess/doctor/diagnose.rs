@@ -28,7 +28,9 @@ pub(crate) const MORE_MEMORY: &str = "a coarser mesh away from the contact, `sol
 /// A finding about an attempt that failed, the `attempt`-th of its increment.
 pub(crate) fn diagnose(
     view: &View,
-    (trial, attempt, counters): (&Trial, usize, Counters),
+    trial: &Trial,
+    attempt: usize,
+    counters: Counters,
     failure: &StepFailure,
 ) -> Finding {
     let evidence: Vec<&Evidence> = failure

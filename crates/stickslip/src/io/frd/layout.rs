@@ -131,13 +131,13 @@ impl Layout {
             for (nodes, (&number, &owner)) in all.zip(cells.by_ref()) {
                 let node = |i: usize| self.numbers[nodes[order.get(i).copied().unwrap_or(i)]];
                 let nodes: Vec<u64> = (0..nodes.len()).map(node).collect();
-                self.add_element((number, kind, owner + 1), &nodes);
+                self.add_element(number, kind, owner + 1, &nodes);
             }
         }
         self.end_block();
     }
 
-    fn add_element(&mut self, (number, kind, body): (u64, usize, usize), nodes: &[u64]) {
+    fn add_element(&mut self, number: u64, kind: usize, body: usize, nodes: &[u64]) {
         if self.encoding == Encoding::Binary {
             let first = [number as i32, kind as i32, 0, body as i32];
             let all = first

@@ -204,7 +204,8 @@ impl Make<'_> {
     fn points(
         &self,
         facets: &[FacetRef],
-        (opposite, tips): (&Primary, &[usize]),
+        opposite: &Primary,
+        tips: &[usize],
         only: Option<&[usize]>,
         numbering: &mut Numbering,
     ) -> (Vec<ContactPoint>, Option<Mortar>) {
@@ -221,7 +222,7 @@ impl Make<'_> {
         let (points, mortar) = match weighted {
             Some(angle) => {
                 let (points, mortar) =
-                    surfaces.mortar((facets, tips), modulus, angle.to_radians(), numbering);
+                    surfaces.mortar(facets, tips, modulus, angle.to_radians(), numbering);
                 (points, Some(mortar))
             }
             None => {
@@ -271,7 +272,7 @@ impl Make<'_> {
         let speed = |row: &[f64; 4]| norm([row[1], row[2], row[3]]);
         let fastest = rows.iter().max_by(|a, b| speed(a).total_cmp(&speed(b)));
         let direction = fastest.map_or([1.0, 0.0, 0.0], |row| [row[1], row[2], row[3]]);
-        let ground = Ground::of_facets((facets, direction), above, extent);
+        let ground = Ground::of_facets(facets, direction, above, extent);
         let message = "the primary wears and has a `primary-velocity`, and is not plane: where its matter is after a time is not known";
         let fault = Diagnostic::new(key, message)
             .help("make the primary an obstacle that turns by `motion.rotation`, or let the secondary alone wear");
@@ -298,7 +299,7 @@ impl Make<'_> {
         let (opposite, tips) = self.opposite(primary, &facets, &mut numbering)?;
         let primary_nodes = numbering.nodes.len();
         let (points, mortar) =
-            self.points(&facets, (&opposite, &tips), only.as_deref(), &mut numbering);
+            self.points(&facets, &opposite, &tips, only.as_deref(), &mut numbering);
         let points = match mortar {
             Some(_) => points,
             None => (self.held_nodes).once(points, (&numbering.nodes, primary_nodes)),

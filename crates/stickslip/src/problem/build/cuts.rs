@@ -80,7 +80,8 @@ pub(super) fn cut(problem: &Problem, body: &str, mesh: &mut Mesh) -> Result<Vec<
                         let known: Vec<&str> = mesh.cell_sets.keys().map(String::as_str).collect();
                         return Err(missing(
                             format!("pretension.{name}.of"),
-                            (of, "set of cells"),
+                            of,
+                            "set of cells",
                             &known,
                         ));
                     }
@@ -91,7 +92,7 @@ pub(super) fn cut(problem: &Problem, body: &str, mesh: &mut Mesh) -> Result<Vec<
             Section::Facets(facets) => {
                 let Some(given) = mesh.facet_sets.get(set).filter(|f| !f.is_empty()) else {
                     let known: Vec<&str> = mesh.facet_sets.keys().map(String::as_str).collect();
-                    return Err(missing(format!("{key}.set"), (of, "facets"), &known));
+                    return Err(missing(format!("{key}.set"), of, "facets", &known));
                 };
                 let given = given.clone();
                 let mean = mean_normal(mesh, &given);
@@ -117,7 +118,7 @@ pub(super) fn cut(problem: &Problem, body: &str, mesh: &mut Mesh) -> Result<Vec<
     Ok(cuts)
 }
 
-fn missing(key: String, (name, what): (&str, &str), known: &[&str]) -> Error {
+fn missing(key: String, name: &str, what: &str, known: &[&str]) -> Error {
     let finding = Diagnostic::new(key, format!("`{name}` is no {what} of the mesh"));
     problem_error(vec![match known {
         [] => finding.help("the mesh has none"),

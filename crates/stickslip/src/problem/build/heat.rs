@@ -113,7 +113,7 @@ pub(super) fn temperatures(
         let key = format!("initial.{name}");
         let points = sets.points(&table.set, &format!("{key}.set"))?;
         let below = format!("{key}.temperature");
-        for (p, value) in values(kind, (mesh, space), &points, &below)? {
+        for (p, value) in values(kind, mesh, space, &points, &below)? {
             if let Some(other) = given[p].filter(|_| start[p] != value) {
                 let message = format!(
                     "node {} has the temperature {value} here, and {} by `initial.{other}`",
@@ -132,7 +132,7 @@ pub(super) fn temperatures(
         let key = format!("temperature.{name}");
         let points = sets.points(&table.set, &format!("{key}.set"))?;
         let below = format!("{key}.{}", crate::registry::Family::kind(&table.kind));
-        fields.push((name, values(&table.kind, (mesh, space), &points, &below)?));
+        fields.push((name, values(&table.kind, mesh, space, &points, &below)?));
     }
     let taken = follow(problem, mesh, &fields)?;
     let fields = fields
@@ -161,7 +161,8 @@ pub(super) fn temperatures(
 /// What a field gives at points, ascending.
 fn values(
     kind: &TemperatureKind,
-    (mesh, space): (&Mesh, Space),
+    mesh: &Mesh,
+    space: Space,
     points: &[usize],
     key: &str,
 ) -> Result<Vec<(usize, f64)>, Error> {
@@ -259,7 +260,7 @@ pub(super) fn warm(
         for (part, material) in parts.iter_mut().zip(materials) {
             let law = &laws[material.as_str()];
             if !law.rows.is_empty() {
-                grade(problem, &body, (part, material, law), (&all, &extremes))?;
+                grade(problem, &body, part, material, law, &all, &extremes)?;
             }
         }
         let old = body.elastic;
@@ -283,8 +284,11 @@ pub(super) fn warm(
 fn grade(
     problem: &Problem,
     body: &Body,
-    (part, material, law): (&mut Part, &str, &Law),
-    (all, extremes): (&Temperatures, &[[f64; 2]]),
+    part: &mut Part,
+    material: &str,
+    law: &Law,
+    all: &Temperatures,
+    extremes: &[[f64; 2]],
 ) -> Result<(), Error> {
     let block = &body.elastic.mesh().blocks[part.block];
     let nodes = block.connectivity.chunks_exact(block.kind.node_count());

@@ -47,7 +47,7 @@ pub(super) fn build(
     let mut mesh = Mesh::default();
     let (mut bodies, mut all_cuts) = (Vec::new(), Vec::new());
     for (name, body) in &problem.body {
-        let mut own = source(name, body, (folder, given), &mut files)?;
+        let mut own = source(name, body, folder, given, &mut files)?;
         place(body, &mut own);
         if own.dim != problem.model.space.dim() {
             return Err(problem_error(vec![
@@ -121,7 +121,8 @@ pub(super) fn build(
 fn source(
     name: &str,
     body: &Body,
-    (folder, given): (&Path, &Meshes),
+    folder: &Path,
+    given: &Meshes,
     files: &mut Meshes,
 ) -> Result<Mesh, Error> {
     match &body.mesh {

@@ -69,7 +69,7 @@ pub(super) fn mark(interface: &mut InterfaceDefinition, held: &Held, angle: f64)
     for c in 0..interface.dofs.dim {
         for plane in [low[c], high[c]] {
             let on: Vec<bool> = nodes().map(|x| (x[c] - plane).abs() <= near).collect();
-            if high[c] - low[c] > near && symmetric(interface, held, (c, plane), &on) {
+            if high[c] - low[c] > near && symmetric(interface, held, c, plane, &on) {
                 cross_out(interface, c, &on, (0.5 * angle).sin());
             }
         }
@@ -80,7 +80,8 @@ pub(super) fn mark(interface: &mut InterfaceDefinition, held: &Held, angle: f64)
 fn symmetric(
     interface: &InterfaceDefinition,
     held: &Held,
-    (c, plane): (usize, f64),
+    c: usize,
+    plane: f64,
     on: &[bool],
 ) -> bool {
     let Primary::Facets(facets) = &interface.primary else {

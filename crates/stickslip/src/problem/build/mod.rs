@@ -65,7 +65,7 @@ impl Problem {
         let mut moves = snap::Moves::default();
         let mut setup = self.build_moved(folder, meshes, moves.clone())?;
         for round in 0..worn::rounds(self) {
-            worn::add_round(self, (folder, round), &setup, &mut moves)?;
+            worn::add_round(self, folder, round, &setup, &mut moves)?;
             // All that follows from coordinates is made anew.
             setup = self.build_moved(folder, meshes, moves.clone())?;
         }
@@ -178,7 +178,7 @@ impl Problem {
             densities: &densities,
             links: &links,
         };
-        let (mut loads, springs) = loads(self, &sets, &domain, (&timeline, &bodies))?;
+        let (mut loads, springs) = loads(self, &sets, &domain, &timeline, &bodies)?;
         let ground = Ground {
             mesh: &mesh,
             space,
@@ -226,7 +226,7 @@ impl Problem {
         let mut interfaces = contact::build(self, &sets, (&mesh, space), &bodies, &timeline, held)?;
         held_nodes.mark(&mut interfaces);
         turning::attach((&frames, &corotations), &mut interfaces)?;
-        turning::refuse_ties((&frames, &corotations), &interfaces, &steps)?;
+        turning::refuse_ties(&frames, &corotations, &interfaces, &steps)?;
         let heights = relief::apply(self, folder, &mut interfaces)?;
         let initials = initial::build(self, &sets, &mesh, &rigid, folder)?;
         initial::agree_with_supports(self, &initials, &supports, &mesh, &rigid)?;
@@ -295,7 +295,8 @@ fn loads(
     problem: &Problem,
     sets: &Sets,
     domain: &Domain,
-    (timeline, bodies): (&Timeline, &[Body]),
+    timeline: &Timeline,
+    bodies: &[Body],
 ) -> Result<(Vec<Load>, Vec<Spring>), Error> {
     let turning = bodies.iter().filter(|b| b.elastic.is_corotational());
     let turning: BTreeSet<usize> = turning.flat_map(|b| b.blocks.clone()).collect();

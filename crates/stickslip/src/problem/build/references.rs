@@ -164,7 +164,7 @@ pub(super) fn build(problem: &Problem, said: &Said) -> Result<Vec<Reference>, Er
         let index = bodies + i;
         let link = &said.links.all()[index];
         let own = inertia(table, index, link);
-        let rigid = carried(problem, (name, index), own, said)?;
+        let rigid = carried(problem, name, index, own, said)?;
         let still = said.steps.iter();
         let still: Result<Vec<_>, Error> = still
             .map(|step| unresisted(name, link, rigid.as_ref(), step, said))
@@ -183,7 +183,8 @@ pub(super) fn build(problem: &Problem, said: &Said) -> Result<Vec<Reference>, Er
 /// The mass of a reference point with that of the rigid bodies it carries.
 fn carried(
     problem: &Problem,
-    (name, index): (&str, usize),
+    name: &str,
+    index: usize,
     own: Option<Rigid>,
     said: &Said,
 ) -> Result<Option<Rigid>, Error> {

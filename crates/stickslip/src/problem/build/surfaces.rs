@@ -182,7 +182,7 @@ impl Surfaces<'_> {
         let mut out = self.nodal_points((&plain, without), primary, numbering);
         out.extend(match obstacle {
             true => self.mean_points(&curved, primary, numbering),
-            false => self.quadrature_points(&curved, (primary, yields), numbering),
+            false => self.quadrature_points(&curved, primary, yields, numbering),
         });
         out
     }
@@ -310,7 +310,8 @@ impl Surfaces<'_> {
     pub(super) fn quadrature_points(
         &self,
         facets: &[FacetRef],
-        (primary, yields): (f64, bool),
+        primary: f64,
+        yields: bool,
         numbering: &mut Numbering,
     ) -> Vec<ContactPoint> {
         let mut out = Vec::new();
@@ -340,7 +341,8 @@ impl Surfaces<'_> {
     /// multiplier of their own: on each face their dual function goes to the nearest node that has one.
     pub(super) fn mortar(
         &self,
-        (facets, without): (&[FacetRef], &[usize]),
+        facets: &[FacetRef],
+        without: &[usize],
         primary: f64,
         angle: f64,
         numbering: &mut Numbering,
@@ -457,7 +459,7 @@ impl Surfaces<'_> {
         shared.retain(|p| theirs.binary_search(p).is_ok());
         let others: Vec<String> = shared
             .iter()
-            .filter(|&&p| !self.is_tip(p, &shared, (secondary, primary)))
+            .filter(|&&p| !self.is_tip(p, &shared, secondary, primary))
             .map(|&p| self.mesh.point_ids[p].to_string())
             .collect();
         let nodes = match others.as_slice() {
@@ -481,7 +483,8 @@ impl Surfaces<'_> {
         &self,
         point: usize,
         shared: &[usize],
-        (secondary, primary): (&[FacetRef], &[FacetRef]),
+        secondary: &[FacetRef],
+        primary: &[FacetRef],
     ) -> bool {
         let at = self.mesh.points[point];
         // The faces around it: their mean normal, and the way to their middle.

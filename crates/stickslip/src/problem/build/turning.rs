@@ -90,7 +90,8 @@ pub(super) fn attach(
 /// Refuses implicit motion in which ties hold rigid bodies that turn to elastic ones by the forces at the ends of increments. The arms of points of a rigid body are there,
 /// those of the points of an elastic one half an increment behind, and a tie that is strained along the radius brakes both: a ring on a hub that was brought to 600 rad/s lost an eighth of its spin.
 pub(super) fn refuse_ties(
-    (frames, corotations): (&BodyFrames, &Corotations),
+    frames: &BodyFrames,
+    corotations: &Corotations,
     interfaces: &[InterfaceDefinition],
     steps: &[Step],
 ) -> Result<(), Error> {

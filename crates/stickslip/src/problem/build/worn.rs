@@ -28,7 +28,8 @@ pub(super) fn rounds(problem: &Problem) -> usize {
 /// Those of the files; [`Error::Problem`] where one has no depths, or is of another mesh.
 pub(super) fn add_round(
     problem: &Problem,
-    (folder, round): (&Path, usize),
+    folder: &Path,
+    round: usize,
     setup: &Setup,
     moves: &mut Moves,
 ) -> Result<(), Error> {

@@ -58,9 +58,9 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
             cycles::check(findings, &at("cycles"), problem, span);
         }
         modal(findings, &i, step);
-        harmonic(findings, &i, (problem, step));
-        sliding(findings, &i, (problem, step));
-        kick(findings, &i, (problem, step));
+        harmonic(findings, &i, problem, step);
+        sliding(findings, &i, problem, step);
+        kick(findings, &i, problem, step);
     }
     output(problem, findings);
     fatigue(problem, findings);
@@ -119,7 +119,7 @@ fn modal(findings: &mut Findings, i: &str, step: &Step) {
 }
 
 /// Rules of the answer to harmonic loads.
-fn harmonic(findings: &mut Findings, i: &str, (problem, step): (&Problem, &Step)) {
+fn harmonic(findings: &mut Findings, i: &str, problem: &Problem, step: &Step) {
     let Some(harmonic) = &step.harmonic else {
         return;
     };
@@ -189,7 +189,7 @@ fn harmonic(findings: &mut Findings, i: &str, (problem, step): (&Problem, &Step)
 }
 
 /// Rules of a motion that begins along a mode.
-fn kick(findings: &mut Findings, i: &str, (problem, step): (&Problem, &Step)) {
+fn kick(findings: &mut Findings, i: &str, problem: &Problem, step: &Step) {
     let Some(kick) = &step.kick else {
         return;
     };
@@ -222,7 +222,7 @@ fn kick(findings: &mut Findings, i: &str, (problem, step): (&Problem, &Step)) {
 }
 
 /// Rules of sliding that lasts.
-fn sliding(findings: &mut Findings, i: &str, (problem, step): (&Problem, &Step)) {
+fn sliding(findings: &mut Findings, i: &str, problem: &Problem, step: &Step) {
     let Some(steady) = &step.steady else {
         return;
     };

@@ -29,7 +29,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
         .iter()
         .filter(|(name, _)| !problem.body[*name].rigid);
     let deforms = elastic.next().map(|(name, _)| name.as_str());
-    at_rest_only(problem, (first, deforms), findings);
+    at_rest_only(problem, first, deforms, findings);
     if problem.solver.method == Solution::Multigrid {
         findings.add(
             &["solver", "method"],
@@ -49,11 +49,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
 }
 
 /// Steps that bodies which turn by any angle are not known to: the `first` of them, and the first that `deforms`, as a rigid one may move.
-fn at_rest_only(
-    problem: &Problem,
-    (first, deforms): (&str, Option<&str>),
-    findings: &mut Findings,
-) {
+fn at_rest_only(problem: &Problem, first: &str, deforms: Option<&str>, findings: &mut Findings) {
     for (i, step) in problem.step.iter().enumerate() {
         let i = i.to_string();
         let kinds = [
@@ -87,7 +83,7 @@ fn check_cells(problem: &Problem, findings: &mut Findings) {
     for name in &names {
         sound(problem, name, findings);
     }
-    at_rest_only(problem, (first, Some(first.as_str())), findings);
+    at_rest_only(problem, first, Some(first.as_str()), findings);
     let method = problem.solver.method;
     if matches!(method, Solution::Multigrid | Solution::Condensed) {
         findings.add(

@@ -26,7 +26,8 @@ impl Solver {
         &mut self,
         model: &Model,
         contact: &mut Contact,
-        (external, constraints): (Vec<f64>, Constraints),
+        external: Vec<f64>,
+        constraints: Constraints,
         trial: Trial,
     ) -> Result<Accepted, StepFailure> {
         let Solver {
@@ -89,7 +90,7 @@ impl Solver {
         let dofs = condensation.dofs.iter();
         check_change(model, dofs.map(|&d| (at.u[d], from.u[d])))?;
         check_candidates(contact)?;
-        check_way((model, contact), [from, &at], &fixed)?;
+        check_way(model, contact, [from, &at], &fixed)?;
         Ok(Accepted {
             contact: converged.contact.clone(),
             external,
@@ -213,7 +214,7 @@ impl Solver {
         accepted.strain = 0.5 * dot(u, &internal);
         accepted.flow = Flow {
             work: frame.work(&fixed, (u, &forces), &accepted.external),
-            transmitted: frame.transmitted(model, (u, &forces), &accepted.external),
+            transmitted: frame.transmitted(model, u, &forces, &accepted.external),
             ..Flow::default()
         };
         accepted.forces = forces;

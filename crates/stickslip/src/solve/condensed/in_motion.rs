@@ -124,7 +124,8 @@ impl Solver {
     pub fn check_in_motion(
         &mut self,
         model: &Model,
-        (converged, scale): (&Converged, f64),
+        converged: &Converged,
+        scale: f64,
         u: &[f64],
         fixed: &[bool],
     ) -> Result<(), StepFailure> {

@@ -77,7 +77,7 @@ fn contradictions(model: &Model) -> Vec<Finding> {
                 let apart = (value - was).abs() > DIFFERENT * value.abs().max(was.abs());
                 if other != k && apart && !seen.contains(&(other, k)) {
                     seen.push((other, k));
-                    out.push(contradiction(model, (other, k), (was, value), (e, t)));
+                    out.push(contradiction(model, other, k, was, value, e, t));
                 }
             }
         }
@@ -87,9 +87,12 @@ fn contradictions(model: &Model) -> Vec<Finding> {
 
 fn contradiction(
     model: &Model,
-    (a, b): (usize, usize),
-    (was, value): (f64, f64),
-    (entry, t): (&Prescribed, f64),
+    a: usize,
+    b: usize,
+    was: f64,
+    value: f64,
+    entry: &Prescribed,
+    t: f64,
 ) -> Finding {
     let (first, second) = (&model.supports[a].name, &model.supports[b].name);
     let (point, component) = model.dofs.locate(entry.dof);

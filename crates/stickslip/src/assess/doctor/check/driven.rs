@@ -107,7 +107,8 @@ pub(super) struct Approach {
 pub(super) fn approach(
     scene: &Scene,
     interface: &InterfaceDefinition,
-    (x, normal): (Vec3, Vec3),
+    x: Vec3,
+    normal: Vec3,
 ) -> Option<Approach> {
     let model = scene.model;
     let owners = owners(model);

@@ -41,7 +41,7 @@ pub(super) fn check(model: &Model) -> Vec<Finding> {
                     "its pressures go up and down from node to node, by ten per cent and more; forces are right"
                 }
             };
-            out.push(finding(model, &body.name, (kind, said), poisson));
+            out.push(finding(model, &body.name, kind, said, poisson));
         }
     }
     out
@@ -85,7 +85,7 @@ fn poisson(c: &Stiffness) -> f64 {
     (3.0 * bulk - 2.0 * shear) / (2.0 * (3.0 * bulk + shear))
 }
 
-fn finding(model: &Model, name: &str, (kind, said): (ElementKind, &str), poisson: f64) -> Finding {
+fn finding(model: &Model, name: &str, kind: ElementKind, said: &str, poisson: f64) -> Finding {
     let advice = match kind {
         ElementKind::Tri3 | ElementKind::Tet4 => {
             "mesh the body with quad4 or hex8 and set `formulation = \"mean-dilatation\"`, or use tri6 or tet10".to_string()

@@ -141,7 +141,7 @@ pub(super) fn apart(
     }
     let x = interface.points[i].position(&interface.reference);
     let normal = measured.nearest[i].as_ref()?.normal;
-    let way = approach(scene, interface, (x, normal))?;
+    let way = approach(scene, interface, x, normal)?;
     if way.most > APART * size || way.least > -APART * size {
         return None;
     }

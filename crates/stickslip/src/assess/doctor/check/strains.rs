@@ -136,7 +136,7 @@ pub(super) fn pressed(
     let (i, &gap) = gaps.min_by(|a, b| a.1.total_cmp(b.1))?;
     let x = interface.points[i].position(&interface.reference);
     let normal = measured.nearest[i].as_ref()?.normal;
-    let way = approach(scene, interface, (x, normal)).filter(|a| a.both)?;
+    let way = approach(scene, interface, x, normal).filter(|a| a.both)?;
     let depth = way.most - gap.max(0.0);
     // What of a body lies along the normal takes its part of the approach.
     let sides = pair(model, interface);
