@@ -62,12 +62,18 @@ impl Contact {
         self.couplings.memory = memory.couplings;
     }
 
-    /// Tells all of them that an attempt is accepted.
-    pub(crate) fn commit(&mut self, stage: &Stage) {
-        for interface in &mut self.interfaces {
-            interface.commit(stage);
-        }
+    /// Tells all of them that an attempt is accepted; what they knew before it.
+    pub(crate) fn commit(&mut self, stage: &Stage) -> ContactMemory {
+        let before = self.interfaces.iter_mut().map(|interface| {
+            let next = interface::commit(interface, stage);
+            std::mem::replace(&mut interface.state, next)
+        });
+        let before = ContactMemory {
+            interfaces: before.collect(),
+            couplings: self.couplings.memory.clone(),
+        };
         self.couplings.commit(stage);
+        before
     }
 
     /// Lets all of them act as springs, as explicit increments need it, or as they are; the energy that comes in by it `[J]`, one by one.

@@ -41,9 +41,8 @@ impl Simulation {
             }
             return self.report(pending, observers);
         };
-        let before = self.pending.is_empty().then(|| contact.memory());
-        contact.commit(&accepted.stage(&condensed.state, *trial));
-        pending.before = before;
+        let before = contact.commit(&accepted.stage(&condensed.state, *trial));
+        pending.before = self.pending.is_empty().then_some(before);
         pending.found = solver.move_ahead(&mut pending.accepted, pending.trial);
         pending.seen = solver.seen.take();
         pending.after = Some(contact.memory());

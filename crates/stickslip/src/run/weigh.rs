@@ -42,10 +42,9 @@ impl Simulation {
         if self.step().dynamic.is_none() {
             return Ok(accepted);
         }
-        let before = self.is_weighed().then(|| self.contact.memory());
         let stage = accepted.stage(&self.frame.state, trial);
-        self.contact.commit(&stage);
-        if let Some(before) = before {
+        let before = self.contact.commit(&stage);
+        if self.is_weighed() {
             let [opened, may] = self.opened(trial, &accepted);
             let length = trial.to - trial.from;
             let resolved = opened <= may || self.resolves(trial);

@@ -1,17 +1,19 @@
 //! What an accepted increment leaves behind: histories, and the energies that went through the interface on the way.
 
 use super::belt::belt_path;
+use super::cache::Cache;
 use super::cone::judge_friction;
 use super::definition::{InterfaceDefinition, Primary};
 use super::energies::stored_energy;
 use super::evaluation::{Evaluation, Evaluations};
-use super::history::PointHistory;
+use super::history::{History, PointHistory};
 use super::input::InterfaceInput;
 use super::on_ground::wear_ground;
 use super::parts::Interface;
 use super::pass::evaluate_all;
 use super::scene::Wants;
 use super::sides::{leave_traces, opposite};
+use super::view::ContactView;
 use super::worn::{hollow_out, path, rubbed, wears_off};
 use crate::contact::enforcement::Multipliers;
 use crate::contact::response::Status;
@@ -48,61 +50,82 @@ struct Increment {
     creeps: bool,
 }
 
-/// Committed history := trial, and what that adds to the energies.
-pub(super) fn accept(interface: &mut Interface, stage: &Stage) {
+/// What the committed history becomes: the trial, and what that adds to the energies.
+pub fn commit(interface: &mut Interface, stage: &Stage) -> History {
     let active = interface.schedule.active(stage.at.t);
-    interface.state.cone = judge_friction(interface, stage);
-    interface.state.nodal = nodal_forces(&interface.definition, &interface.cache.last, active);
-    trust_multipliers(interface);
-    push(interface, stage);
-    interface.state.opposite = opposite(&interface.definition, &interface.cache.last);
-    interface.state.acting = active && !interface.cache.last.points.is_empty();
-    if !interface.state.acting {
-        rest_history(interface);
-        return;
+    let cone = judge_friction(interface, stage);
+    let nodal = nodal_forces(&interface.definition, &interface.cache.last, active);
+    trust_multipliers(&mut interface.cache.last.points);
+    let (input, cache) = interface.parts();
+    let state = input.state;
+    let mut next = History {
+        points: Vec::with_capacity(state.points.len()),
+        acting: active && !cache.last.points.is_empty(),
+        opposite: opposite(input.definition, &cache.last),
+        start: state.start.clone(),
+        springs: state.springs,
+        rest: state.rest.clone(),
+        energy: state.energy,
+        worn: state.worn,
+        nodal,
+        traces: state.traces.clone(),
+        ground: state.ground.clone(),
+        pushed: state.pushed,
+        creep: state.creep,
+        cone,
+    };
+    push(input.definition, &mut next, stage);
+    if !next.acting {
+        next.points
+            .extend(state.points.iter().map(PointHistory::at_rest));
+        next.energy.stored = 0.0;
+        return next;
     }
     let increment = Increment {
-        resolved: stage.rate.is_none() && !interface.state.springs,
-        belt: belt_path(interface.input(), stage),
+        resolved: stage.rate.is_none() && !state.springs,
+        belt: belt_path(input, stage),
         times: [stage.from.t, stage.at.t],
         dt: stage.dt,
-        creeps: interface.laws.friction_law().frictional()
-            && !interface.laws.slip.as_dyn().sticks(),
+        creeps: input.laws.friction_law().frictional() && !input.laws.slip.as_dyn().sticks(),
     };
     let gaps = match increment.resolved {
-        true => gaps_before(interface, stage),
+        true => gaps_before(input, cache, stage),
         false => Vec::new(),
     };
-    let mut traces = vec![0.0; interface.state.points.len()];
+    let last = &cache.last;
+    let mut traces = Vec::with_capacity(state.points.len());
     let mut volumes = traces.clone();
-    interface.state.creep = 0.0;
+    next.creep = 0.0;
     let (mut dissipated, mut work) = (0.0, 0.0);
-    for (i, trace) in traces.iter_mut().enumerate() {
-        let passed = take_over(interface, i, gaps.get(i).copied(), &increment);
+    for (i, h) in state.points.iter().enumerate() {
+        let gap = gaps.get(i).copied().unwrap_or(h.gap);
+        let passed = take_over(input, last, &mut next, i, gap, &increment);
         let area = passed.history.area;
-        *trace = passed.dissipated;
-        volumes[i] = passed.worn[1] * area;
+        traces.push(passed.dissipated);
+        volumes.push(passed.worn[1] * area);
         dissipated += passed.dissipated * area;
         work += passed.work * area;
     }
-    interface.state.start.overlap.clear();
-    interface.state.energy.dissipated += dissipated;
-    leave_traces(interface, &traces);
-    hollow_out(interface, &volumes);
-    wear_ground(interface, &volumes, stage);
-    let stored = stored_energy(interface.view());
-    let before = interface.state.energy.stored;
-    interface.state.energy.stored = stored;
+    next.start.overlap.clear();
+    next.energy.dissipated += dissipated;
+    leave_traces(input.definition, last, &traces, &mut next);
+    hollow_out(input.definition, last, &volumes, &mut next);
+    wear_ground(input, last, &volumes, stage, &mut next);
+    let stored = stored_energy(ContactView {
+        definition: input.definition,
+        state: &next,
+    });
+    next.energy.stored = stored;
     if increment.resolved {
         // Along its path contact gave what it no longer stores, and took what friction has turned into heat.
-        interface.state.energy.path += work - (before - stored - dissipated);
+        next.energy.path += work - (state.energy.stored - stored - dissipated);
     }
+    next
 }
 
 /// Takes multipliers for the tractions where what the laws answer is not quite the same: because they are so steep that it is rounding to some digits, or
 /// because the forces in play, by which the balance is judged, are larger by far. Multipliers are what acts on the bodies.
-fn trust_multipliers(interface: &mut Interface) {
-    let points = &mut interface.cache.last.points;
+fn trust_multipliers(points: &mut [Evaluation]) {
     let size = |t: &[f64; 3]| t.iter().fold(0.0, |m: f64, t| m.max(t.abs()));
     let forces = points.iter().map(|e| size(&e.multiplier) * e.area);
     let largest = forces.fold(0.0, f64::max);
@@ -115,40 +138,32 @@ fn trust_multipliers(interface: &mut Interface) {
     }
 }
 
-/// Nothing acts: only what adds up is kept.
-fn rest_history(interface: &mut Interface) {
-    for h in &mut interface.state.points {
-        *h = PointHistory {
-            slip: h.slip,
-            dissipated: h.dissipated,
-            worn: h.worn,
-            hollow: h.hollow,
-            path: h.path,
-            spent: h.spent,
+impl PointHistory {
+    /// What is kept where nothing acts: what adds up.
+    fn at_rest(&self) -> Self {
+        PointHistory {
+            slip: self.slip,
+            dissipated: self.dissipated,
+            worn: self.worn,
+            hollow: self.hollow,
+            path: self.path,
+            spent: self.spent,
             ..PointHistory::default()
-        };
+        }
     }
-    interface.state.energy.stored = 0.0;
 }
 
-/// Enters a point into the history, and what it did into the energies. `gap`: at the start, where that is not the committed one.
+/// Enters a point into the history, and what it did into the energies. `gap`: at the start.
 fn take_over(
-    interface: &mut Interface,
+    input: InterfaceInput,
+    last: &Evaluations,
+    next: &mut History,
     i: usize,
-    gap: Option<f64>,
+    gap: f64,
     increment: &Increment,
 ) -> Passed {
-    let input = interface.input();
-    let (e, h) = (&interface.cache.last.points[i], &input.state.points[i]);
-    let passed = pass(
-        input,
-        i,
-        h,
-        e,
-        gap.unwrap_or(h.gap),
-        increment.resolved,
-        increment.dt,
-    );
+    let (e, h) = (&last.points[i], &input.state.points[i]);
+    let passed = pass(input, i, e, gap, increment);
     let (area, r) = (e.area, &e.response);
     let shear = passed.history.shear;
     let sheared = match input.conditions.impulses {
@@ -177,16 +192,15 @@ fn take_over(
         true => norm(e.moved) / increment.dt,
         false => 0.0,
     };
-    let history = &mut interface.state;
-    history.energy.uncertain += passed.uncertain * area;
-    history.energy.excess += passed.excess * area;
-    for (total, depth) in history.worn.iter_mut().zip(passed.worn) {
+    next.energy.uncertain += passed.uncertain * area;
+    next.energy.excess += passed.excess * area;
+    for (total, depth) in next.worn.iter_mut().zip(passed.worn) {
         *total += depth * area;
     }
-    history.energy.work += belt_work;
-    history.energy.damped += damped;
-    history.creep = history.creep.max(creep);
-    history.points[i] = passed.history;
+    next.energy.work += belt_work;
+    next.energy.damped += damped;
+    next.creep = next.creep.max(creep);
+    next.points.push(passed.history);
     passed
 }
 
@@ -213,12 +227,12 @@ fn pressed_out(interface: InterfaceInput, i: usize, e: &Evaluation) -> f64 {
 fn pass(
     interface: InterfaceInput,
     i: usize,
-    h: &PointHistory,
     e: &Evaluation,
     gap: f64,
-    resolved: bool,
-    dt: f64,
+    increment: &Increment,
 ) -> Passed {
+    let h = &interface.state.points[i];
+    let Increment { resolved, dt, .. } = *increment;
     let r = &e.response;
     let frictional = interface.laws.friction_law().frictional();
     let shear = e.along(&e.frames.now);
@@ -349,9 +363,9 @@ fn dissipated(
 
 /// Gaps of all points at the start of an increment. Where that is not known, as nothing was opposite or nothing had been accepted yet, they are
 /// looked up.
-fn gaps_before(interface: &mut Interface, stage: &Stage) -> Vec<f64> {
+fn gaps_before(interface: InterfaceInput, cache: &mut Cache, stage: &Stage) -> Vec<f64> {
     let committed = &interface.state.points;
-    let points = interface.cache.last.points.iter().zip(committed);
+    let points = cache.last.points.iter().zip(committed);
     let unknown = |(e, h): (&Evaluation, &PointHistory)| {
         h.normal == [0.0; 3] && e.response.traction != [0.0; 3]
     };
@@ -363,9 +377,8 @@ fn gaps_before(interface: &mut Interface, stage: &Stage) -> Vec<f64> {
         at: stage.from,
         ..*stage
     };
-    let (input, cache) = interface.parts();
-    let evaluations = evaluate_all(input, cache, &start, Wants::default());
-    let known = input.state.points.iter().zip(&evaluations.points);
+    let evaluations = evaluate_all(interface, cache, &start, Wants::default());
+    let known = interface.state.points.iter().zip(&evaluations.points);
     let gaps = known.map(|(h, e)| match h.normal == [0.0; 3] {
         true => e.known_gap(),
         false => h.gap,
@@ -393,22 +406,22 @@ fn nodal_forces(interface: &InterfaceDefinition, last: &Evaluations, active: boo
 }
 
 /// Enters the work of a moving obstacle: force times shift and moment times angle, by the trapezoidal rule.
-fn push(interface: &mut Interface, stage: &Stage) {
-    let Primary::Rigid(_, motion) = &interface.primary else {
+fn push(definition: &InterfaceDefinition, next: &mut History, stage: &Stage) {
+    let Primary::Rigid(_, motion) = &definition.primary else {
         return;
     };
     let [shift, turn] = motion.way(stage.from.t, stage.at.t);
     let centre = motion.pose(stage.at.t).centre();
-    let x = interface.coordinates(&stage.at.u);
+    let x = definition.coordinates(&stage.at.u);
     let mut now = [[0.0; 3]; 2];
-    for (&force, &x) in interface.state.nodal.iter().zip(&x) {
+    for (&force, &x) in next.nodal.iter().zip(&x) {
         now[0] = add(now[0], force);
         now[1] = add(now[1], cross(sub(x, centre), force));
     }
-    let before = interface.state.pushed;
-    interface.state.pushed = now;
+    let before = next.pushed;
+    next.pushed = now;
     let mean = [0, 1].map(|k| scale(0.5, add(before[k], now[k])));
-    interface.state.energy.work += dot(mean[0], shift) + dot(mean[1], turn);
+    next.energy.work += dot(mean[0], shift) + dot(mean[1], turn);
 }
 
 impl Evaluation {

@@ -6,7 +6,7 @@ use super::axles::hold_axles;
 use super::beginning::glue;
 use super::cache::Cache;
 use super::candidates::{pair_reference, update_candidates};
-use super::commit::accept;
+use super::commit::commit;
 use super::curvature::add_curvature;
 use super::definition::InterfaceDefinition;
 use super::evaluation::Evaluations;
@@ -144,7 +144,7 @@ impl Force for Interface {
     }
 
     fn commit(&mut self, stage: &Stage) {
-        accept(self, stage);
+        self.state = commit(self, stage);
     }
 
     fn tally(&self) -> Option<Tally> {

@@ -66,6 +66,7 @@ pub use beginning::begin_acting;
 pub use cache::Cache;
 pub use candidate_range::{CandidateRange, include_all, restrict_to_candidates, spreads};
 pub use change::{Change, change};
+pub use commit::commit;
 pub use conditions::{Conditions, Steady};
 pub use definition::{InterfaceDefinition, Primary};
 pub use ground::{Above, Ground};

@@ -3,12 +3,11 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::belt::belt_gone;
-use super::cache::Cache;
 use super::definition::{InterfaceDefinition, Primary};
 use super::evaluation::Evaluations;
 use super::ground::Under;
+use super::history::History;
 use super::input::InterfaceInput;
-use super::parts::Interface;
 use super::scene::Scene;
 use super::sides::facet_weights;
 use crate::contact::obstacle::{Place, Pose};
@@ -50,8 +49,13 @@ pub(super) fn ground_depth(i: usize, scene: &Scene, sides: &[(usize, f64)]) -> f
 }
 
 /// Takes from the ground what points have worn off it over an increment, along their ways.
-pub(super) fn wear_ground(interface: &mut Interface, volumes: &[f64], stage: &Stage) {
-    let (input, Cache { last, .. }) = interface.parts();
+pub(super) fn wear_ground(
+    input: InterfaceInput,
+    last: &Evaluations,
+    volumes: &[f64],
+    stage: &Stage,
+    next: &mut History,
+) {
     let Some(ground) = &input.definition.hollows.ground else {
         return;
     };
@@ -82,7 +86,7 @@ pub(super) fn wear_ground(interface: &mut Interface, volumes: &[f64], stage: &St
         .map(|(place, volume)| (place, volume / ground.chart.area(place, ground.extent)))
         .collect();
     let felt = feels(input, last, &gained, volumes, &to, stage.at.t);
-    let depths = &mut interface.state.ground;
+    let depths = &mut next.ground;
     for (place, depth) in gained {
         *depths.places.entry(place).or_default() += depth;
     }
@@ -91,7 +95,7 @@ pub(super) fn wear_ground(interface: &mut Interface, volumes: &[f64], stage: &St
         *taken += volume;
     }
     depths.felt = felt;
-    show_ground(interface, stage.at.t);
+    show_ground(input, stage.at.t, next);
 }
 
 /// What lies open beneath each point at the end of an increment in which the ground `gained` depths, over what the point has taken per area: one where it stays on its track, little where
@@ -138,12 +142,12 @@ fn pose(interface: &InterfaceDefinition, t: f64) -> Option<Pose> {
 }
 
 /// Gives the nodes of the primary the depth of the matter that is there now.
-fn show_ground(interface: &mut Interface, t: f64) {
+fn show_ground(interface: InterfaceInput, t: f64, next: &mut History) {
     let (Some(ground), false) = (&interface.hollows.ground, interface.rigid()) else {
         return;
     };
-    let gone = belt_gone(interface.input(), t);
-    let places = &interface.state.ground.places;
+    let gone = belt_gone(interface, t);
+    let places = &next.ground.places;
     let depth = |x: &Vec3| -> f64 {
         let around = ground.chart.around(sub(*x, gone)).into_iter();
         around
@@ -154,8 +158,8 @@ fn show_ground(interface: &mut Interface, t: f64) {
         .iter()
         .map(depth)
         .collect();
-    let traces = &mut interface.state.traces;
-    traces.resize(interface.definition.nodes.len(), [0.0; 2]);
+    let traces = &mut next.traces;
+    traces.resize(interface.nodes.len(), [0.0; 2]);
     for (trace, depth) in traces.iter_mut().zip(shown) {
         trace[1] = depth;
     }

@@ -2,8 +2,8 @@
 
 use super::definition::InterfaceDefinition;
 use super::evaluation::Evaluations;
-use super::history::Opposite;
-use super::parts::Interface;
+use super::history::{History, Opposite};
+use super::view::ContactView;
 use crate::contact::kinematics::Part;
 
 /// Nodes that take part in a point and their weights at the last evaluation.
@@ -47,21 +47,30 @@ pub(in crate::contact) fn weights_of(
 
 /// Adds what the last increment dissipated per area at each point to the nodes of the primary that it met: the mean of the
 /// points over a node, weighted by their areas there. What slides over the primary so leaves its trace where it was.
-pub(super) fn leave_traces(interface: &mut Interface, traces: &[f64]) {
-    if interface.rigid() || traces.iter().all(|t| *t == 0.0) {
+pub(super) fn leave_traces(
+    definition: &InterfaceDefinition,
+    last: &Evaluations,
+    traces: &[f64],
+    next: &mut History,
+) {
+    if definition.rigid() || traces.iter().all(|t| *t == 0.0) {
         return;
     }
-    let mut sums = vec![[0.0; 2]; interface.nodes.len()];
+    let mut sums = vec![[0.0; 2]; definition.nodes.len()];
+    let view = ContactView {
+        definition,
+        state: next,
+    };
     for (i, trace) in traces.iter().enumerate() {
-        let area = interface.view().area_of(i);
-        for (node, w) in facet_weights(interface.primary_nodes, &interface.cache.last, i) {
+        let area = view.area_of(i);
+        for (node, w) in facet_weights(definition.primary_nodes, last, i) {
             let share = area * w.max(0.0);
             sums[node][0] += share * trace;
             sums[node][1] += share;
         }
     }
-    let all = &mut interface.state.traces;
-    all.resize(interface.definition.nodes.len(), [0.0; 2]);
+    let all = &mut next.traces;
+    all.resize(definition.nodes.len(), [0.0; 2]);
     for (t, [dissipated, share]) in all.iter_mut().zip(sums) {
         if share > 0.0 {
             t[0] += dissipated / share;

@@ -11,11 +11,10 @@
 //! solution does not depend on that, and the tangent stays as symmetric as it was.
 
 use super::definition::InterfaceDefinition;
-use super::evaluation::Evaluation;
-use super::history::PointHistory;
+use super::evaluation::{Evaluation, Evaluations};
+use super::history::{History, PointHistory};
 use super::input::InterfaceInput;
 use super::on_ground::ground_depth;
-use super::parts::Interface;
 use super::scene::Scene;
 use super::sides::facet_weights;
 use crate::contact::kinematics::Stencil;
@@ -158,28 +157,33 @@ pub(super) fn wears_off(
 }
 
 /// Adds volumes that points take from the primary to the depths of its corners.
-pub(super) fn hollow_out(interface: &mut Interface, volumes: &[f64]) {
-    if interface.hollows.is_empty() || volumes.iter().all(|v| *v == 0.0) {
+pub(super) fn hollow_out(
+    definition: &InterfaceDefinition,
+    last: &Evaluations,
+    volumes: &[f64],
+    next: &mut History,
+) {
+    if definition.hollows.is_empty() || volumes.iter().all(|v| *v == 0.0) {
         return;
     }
-    let mut lost = vec![0.0; interface.nodes.len()];
+    let mut lost = vec![0.0; definition.nodes.len()];
     for (i, volume) in volumes.iter().enumerate() {
-        for (node, w) in facet_weights(interface.primary_nodes, &interface.cache.last, i) {
-            for end in interface.hollows.ends[node] {
+        for (node, w) in facet_weights(definition.primary_nodes, last, i) {
+            for end in definition.hollows.ends[node] {
                 lost[end] += 0.5 * w * volume;
             }
         }
     }
-    let traces = &mut interface.state.traces;
-    traces.resize(interface.definition.nodes.len(), [0.0; 2]);
-    let areas = interface.definition.hollows.area.iter().zip(&lost);
+    let traces = &mut next.traces;
+    traces.resize(definition.nodes.len(), [0.0; 2]);
+    let areas = definition.hollows.area.iter().zip(&lost);
     for (trace, (area, lost)) in traces.iter_mut().zip(areas) {
         if *area > 0.0 {
             trace[1] += lost / area;
         }
     }
-    for node in 0..interface.definition.hollows.ends.len() {
-        let [a, b] = interface.definition.hollows.ends[node];
+    for node in 0..definition.hollows.ends.len() {
+        let [a, b] = definition.hollows.ends[node];
         if a != b {
             traces[node][1] = 0.5 * (traces[a][1] + traces[b][1]);
         }
