@@ -40,15 +40,17 @@ pub fn integrate(
         reference: gather(&face.nodes, sides.reference),
         normals: sides.normals(face),
     };
+    let ends = |f: &usize| sides.facets[*f].continues.contains(&false);
+    let opposite = (candidates, candidates.iter().any(ends));
     for cell in cells(face.kind, &face.nodes, sides.reference) {
         let normal = view.cell_normal(cell);
         match face.kind.dim() {
             1 => Interval::new(&view, cell, normal)
                 .iter()
-                .for_each(|w| meet(w, &view, normal, (sides, candidates), scratch, out)),
+                .for_each(|w| meet(w, &view, normal, (sides, opposite), scratch, out)),
             _ => Plane::new(&view, cell, normal)
                 .iter()
-                .for_each(|w| meet(w, &view, normal, (sides, candidates), scratch, out)),
+                .for_each(|w| meet(w, &view, normal, (sides, opposite), scratch, out)),
         }
     }
     let covered: f64 = scratch.samples.iter().map(|s| s.w).sum();
@@ -64,12 +66,17 @@ fn meet<W: Window>(
     window: &W,
     view: &View,
     normal: Vec3,
-    (sides, candidates): (&Sides, &[usize]),
+    (sides, (candidates, ends)): (&Sides, (&[usize], bool)),
     scratch: &mut Scratch,
     out: &mut FaceIntegral,
 ) {
-    let own = Patch::new(view.face.kind, &view.x[..view.face.nodes.len()]);
-    let outward = rim::normal(&own).unwrap_or(normal);
+    let outward = match ends {
+        true => {
+            let own = Patch::new(view.face.kind, &view.x[..view.face.nodes.len()]);
+            rim::normal(&own).unwrap_or(normal)
+        }
+        false => normal,
+    };
     for &f in candidates {
         let facet = &sides.facets[f];
         let x = gather(&facet.nodes, sides.x);
@@ -97,6 +104,7 @@ fn meet<W: Window>(
                 outward,
                 sides,
                 candidates,
+                ends,
                 facet: f,
             };
             window.places(&part, facet.kind, &mut |xi, w| {
