@@ -211,10 +211,11 @@ impl Tree {
         }
         // The nearest facet is not farther than the farthest corner of any one box.
         let mut bound = f64::INFINITY;
+        let mut reach = f64::INFINITY;
         let mut stack = Stack::new();
         while let Some(i) = stack.pop() {
             let node = &self.nodes[i];
-            if node.bounds.distance2(point) > bound {
+            if node.bounds.distance2(point) > reach {
                 continue;
             }
             if node.count == 0 {
@@ -224,31 +225,23 @@ impl Tree {
                 let (first, second) = if near(a) <= near(b) { (a, b) } else { (b, a) };
                 stack.push(second);
                 stack.push(first);
-            } else {
-                for &item in &self.items[node.index..node.index + node.count] {
-                    bound = bound.min(self.boxes[item].farthest2(point));
-                }
-            }
-        }
-        let reach = (bound.sqrt() + margin).powi(2);
-        let mut stack = Stack::new();
-        while let Some(i) = stack.pop() {
-            let node = &self.nodes[i];
-            if node.bounds.distance2(point) > reach {
                 continue;
             }
-            if node.count == 0 {
-                stack.push(i + 1);
-                stack.push(node.index);
-            } else {
-                let items = &self.items[node.index..node.index + node.count];
-                out.extend(
-                    items
-                        .iter()
-                        .filter(|&&item| self.boxes[item].distance2(point) <= reach),
-                );
+            let items = &self.items[node.index..node.index + node.count];
+            let farthest = |&item: &usize| self.boxes[item].farthest2(point);
+            let nearest = items.iter().map(farthest).fold(bound, f64::min);
+            if nearest < bound {
+                bound = nearest;
+                reach = (bound.sqrt() + margin).powi(2);
             }
+            out.extend(
+                items
+                    .iter()
+                    .filter(|&&item| self.boxes[item].distance2(point) <= reach),
+            );
         }
+        // What was met before the bound was known.
+        out.retain(|&item| self.boxes[item].distance2(point) <= reach);
         out.sort_unstable();
     }
 

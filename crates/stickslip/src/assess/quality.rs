@@ -193,7 +193,7 @@ const STILL: f64 = 1e-6;
 
 /// The energy that forces of this size stand for where nothing moves `[J]`.
 pub(crate) fn still_energy(model: &Model, forces: f64) -> f64 {
-    STILL * model.mesh.diameter() * forces
+    STILL * model.size * forces
 }
 
 /// Digits behind the point of a value and of its limit, where these tell them apart.
@@ -229,27 +229,29 @@ impl View<'_> {
 
     /// The energy that may be nothing but rounding of the strains `[J]`.
     fn rounded_energy(&self) -> f64 {
-        let displacements = self.frame.state.u.iter();
-        let moved = displacements.fold(0.0_f64, |m, u| m.max(u.abs()));
-        ROUNDED * self.strain_force() * moved
+        let moved = self.farthest();
+        ROUNDED * self.stiffness() * moved * moved
+    }
+
+    /// The largest displacement or rotation of a dof.
+    fn farthest(&self) -> f64 {
+        (self.frame.state.u.iter()).fold(0.0, |m, u| f64::max(m, u.abs()))
     }
 
     /// Force `[N]` in the stiffest body if the largest displacement were its strain, beside which forces may be nothing but rounding.
     pub(crate) fn strain_force(&self) -> f64 {
-        let size = self.model.mesh.diameter();
-        let u = self
-            .frame
-            .state
-            .u
-            .iter()
-            .fold(0.0_f64, |m, u| m.max(u.abs()));
+        self.stiffness() * self.farthest()
+    }
+
+    /// Stiffness `[N/m]` of a body of the stiffest material and the size of the model.
+    fn stiffness(&self) -> f64 {
         let blocks = 0..self.model.mesh.blocks.len();
         let moduli = self.model.elastic().flat_map(|b| {
             let of = |k: usize| b.elastic.constrained_modulus(k);
             blocks.clone().filter_map(of)
         });
         let stiffest = moduli.fold(0.0_f64, f64::max);
-        stiffest * size.powi(self.model.mesh.dim as i32 - 2) * u
+        stiffest * self.model.size.powi(self.model.mesh.dim as i32 - 2)
     }
 
     /// Judges the last accepted state.

@@ -5,7 +5,7 @@ use super::figures::{DISPLACEMENT, LOCAL_ROTATION, ROTATION, STRAIN};
 use super::quality::Gate;
 use super::view::View;
 use crate::body::Turning;
-use crate::math::{Vec3, norm};
+use crate::math::{Vec3, dot, norm};
 use crate::model::definition::Body;
 use crate::model::limits::{GateMode, Limits};
 use crate::system::State;
@@ -28,7 +28,7 @@ impl View<'_> {
         findings: &mut Vec<Finding>,
     ) {
         let judged = limits.gate != GateMode::Off;
-        let size = self.model.mesh.diameter() + self.prescribed_way();
+        let size = self.model.size + self.prescribed_way();
         let t = self.frame.state.t;
         let mut far = Vec::new();
         let mut turns = Vec::new();
@@ -118,8 +118,12 @@ impl View<'_> {
     /// The largest displacement of a body `[m]`.
     pub(crate) fn way(&self, body: &Body) -> f64 {
         let (dofs, u) = (self.model.dofs, self.displacements());
-        let ways = body.points.clone().map(|p| norm(dofs.vector(&u, p)));
-        ways.fold(0.0, |m, way| if way > m || way.is_nan() { way } else { m })
+        let squares = body.points.clone().map(|p| {
+            let way = dofs.vector(&u, p);
+            dot(way, way)
+        });
+        let larger = |m: f64, s: f64| if s > m || s.is_nan() { s } else { m };
+        squares.fold(0.0, larger).sqrt()
     }
 
     /// How far supports and obstacles have gone by now, at most `[m]`.

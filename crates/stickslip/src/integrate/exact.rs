@@ -388,10 +388,10 @@ impl Exact {
         contact: &mut Contact,
         forces: &mut [f64],
     ) {
-        let half: Vec<f64> = more.iter().map(|m| 0.5 * m).collect();
-        if half.len() != self.terms.len() {
+        if more.is_empty() || more.len() != self.terms.len() {
             return;
         }
+        let half: Vec<f64> = more.iter().map(|m| 0.5 * m).collect();
         self.pull(contact, |k| half[k], None);
         let mut beyond = vec![0.0; forces.len()];
         self.spread(&half, &mut beyond);

@@ -29,6 +29,8 @@ pub struct Model {
     pub space: Space,
     /// All bodies in one mesh; bodies share no points.
     pub mesh: Arc<Mesh>,
+    /// Its diameter `[m]`.
+    pub size: f64,
     /// Numbering of the unknowns: the points of the mesh, then two hidden ones for each rigid body and each reference point.
     pub dofs: Dofs,
     /// The rigid bodies, then the reference points.

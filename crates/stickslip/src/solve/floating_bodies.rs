@@ -258,7 +258,7 @@ impl Floating {
         let moved = prescribed.map(|((_, to), from)| (to - from).abs());
         let prescribed = moved.fold(0.0, f64::max);
         // Whatever bends and pushes, nothing is flung through the whole model.
-        let utmost = model.mesh.diameter() + origin.gaps + prescribed;
+        let utmost = model.size + origin.gaps + prescribed;
         let mut moved = prescribed;
         let held = model.bodies.iter().enumerate();
         let held = held.filter(|(b, _)| bodies.iter().all(|free| !free.bodies.contains(b)));

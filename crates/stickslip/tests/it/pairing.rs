@@ -59,3 +59,27 @@ fn a_pole_pressed_on_a_pole_comes_to_rest_on_one_of_its_facets() {
         );
     }
 }
+
+/// Where the edges of two bodies lie on one another the softer one is pressed out beyond the other by its strains: its edges go on to carry what their part of the surface does.
+#[test]
+fn edges_that_lie_on_one_another_do_not_part_by_strains() {
+    let text = r#"
+        format = 1
+        model.space = "plane-strain"
+        body.lower = { generate.rectangle = { from = [-1, -1], to = [1, 0], cells = [4, 3] }, material = "stiff" }
+        body.upper = { generate.rectangle = { from = [-1, 0], to = [1, 1], cells = [6, 4] }, material = "soft" }
+        material.stiff.isotropic = { young = 1000, poisson = 0.3 }
+        material.soft.isotropic = { young = 100, poisson = 0.4 }
+        interface.joint = { secondary = "upper.bottom", primary = "lower.top", roles = "as-named", friction.coulomb.mu = 0.1, discretisation.node-to-facet = {} }
+        support.base = { set = "lower.bottom", x = 0, y = 0 }
+        support.guide = { set = "upper.top", x = 0 }
+        load.press = { set = "upper.top", pressure.value = 0.2 }
+        step = [{ increments.fixed = 4 }]
+    "#;
+    let problem = Document::new(text.to_string(), None).problem();
+    let model = problem.expect("a problem").build(Path::new("."));
+    let mut simulation = Simulation::new(model.expect("a model")).expect("a simulation");
+    simulation.run(&mut []).expect("equilibria");
+    let gate = &simulation.summary.quality;
+    assert!(gate.met, "{:?}", gate.violations().next());
+}

@@ -57,19 +57,19 @@ pub(super) fn remove(
     let centre = placed().fold([0.0; 3], |c, (x, p)| add_scaled(c, p.reach / whole, x));
     let kept = |v: Vec3| -> Vec3 { std::array::from_fn(|c| if axes[c] { v[c] } else { 0.0 }) };
     // Flat surfaces that touch leave none: most points end here.
-    let moment = |row: &Vec<f64>| -> Option<Vec3> {
-        let (mut sum, mut size) = ([0.0; 3], 0.0);
-        for (force, (x, _)) in row.chunks_exact(dim).zip(placed()) {
-            let (force, arm) = (in_space(force), sub(x, centre));
-            sum = add(sum, cross(arm, force));
-            size += norm(arm) * norm(force);
+    let (mut sums, mut sizes) = ([[0.0; 3]; 3], [0.0; 3]);
+    for (k, (x, _)) in placed().enumerate() {
+        let arm = sub(x, centre);
+        let length2 = dot(arm, arm);
+        for ((row, sum), size) in rows.iter().zip(&mut sums).zip(&mut sizes).take(dim) {
+            let force = in_space(&row[k * dim..(k + 1) * dim]);
+            *sum = add(*sum, cross(arm, force));
+            *size += (length2 * dot(force, force)).sqrt();
         }
-        let sum = kept(sum);
-        (norm(sum) > ROUNDED * size).then_some(sum)
-    };
-    let moments: [Option<Vec3>; 3] = std::array::from_fn(|q| match q < dim {
-        true => moment(&rows[q]),
-        false => None,
+    }
+    let moments: [Option<Vec3>; 3] = std::array::from_fn(|q| {
+        let sum = kept(sums[q]);
+        (norm(sum) > ROUNDED * sizes[q]).then_some(sum)
     });
     if moments.iter().all(Option::is_none) {
         return;

@@ -219,9 +219,7 @@ pub fn between(contact: ContactView, u: &[f64], t: f64) -> Between {
         return Between::default();
     }
     let x = contact.coordinates(u);
-    let lowest = lowest(contact, &x, t);
-    let skin: Vec<&Facet> = contact.skin.iter().map(|s| &s.facet).collect();
-    compare(contact, &lowest, &hollows(&skin, &x), t)
+    compare(contact, &lowest(contact, &x, t), &x, t)
 }
 
 /// By how much tied surfaces have come apart or slid at the last accepted state, with displacements `u` of the mesh points: the root of the mean square over places all over the
@@ -340,8 +338,8 @@ fn cell_height(contact: ContactView, skin: &Skin) -> f64 {
     sizes.fold(f64::INFINITY, f64::min)
 }
 
-/// What was found, beside what the contact points say.
-fn compare(contact: ContactView, lowest: &[f64], hollows: &[f64], t: f64) -> Between {
+/// What was found at coordinates `x`, beside what the contact points say.
+fn compare(contact: ContactView, lowest: &[f64], x: &[Vec3], t: f64) -> Between {
     let mut out = Between::default();
     let committed = &contact.state.points;
     if committed.len() != contact.points.len() {
@@ -359,17 +357,27 @@ fn compare(contact: ContactView, lowest: &[f64], hollows: &[f64], t: f64) -> Bet
         false => committed[i].gap + contact.offset(i, t),
     };
     let mut around = vec![f64::INFINITY; contact.points.len()];
-    for ((skin, &least), &hollow) in contact.skin.iter().zip(lowest).zip(hollows) {
+    let mut entered = Vec::new();
+    for (f, (skin, &least)) in contact.skin.iter().zip(lowest).enumerate() {
         let wanted = skin.points.iter().map(|&p| said(p)).fold(0.0, f64::min);
-        // A straight face of a hollow surface lies within what it wraps, as chords do in a circle. That is no contact unseen: the surface that it stands for
-        // touches all along.
-        let deep = wanted - least - hollow - rounding;
+        let deep = wanted - least - rounding;
         if deep > 0.0 {
-            out.penetration = out.penetration.max(deep);
-            out.relative_to_size = out.relative_to_size.max(deep / cell_height(contact, skin));
+            entered.push((f, deep));
         }
         for &p in &skin.points {
             around[p] = around[p].min(least);
+        }
+    }
+    if !entered.is_empty() {
+        // A straight face of a hollow surface lies within what it wraps, as chords do in a circle. That is no contact unseen: the surface that it stands for
+        // touches all along.
+        let skin: Vec<&Facet> = contact.skin.iter().map(|s| &s.facet).collect();
+        let hollows = hollows(&skin, x);
+        for (f, deep) in entered {
+            let deep = (deep - hollows[f]).max(0.0);
+            let height = cell_height(contact, &contact.skin[f]);
+            out.penetration = out.penetration.max(deep);
+            out.relative_to_size = out.relative_to_size.max(deep / height);
         }
     }
     // A mean over the corner of a face, where the other surface ends, is carried on to the node: what it presses with is the covered part of it.

@@ -41,15 +41,20 @@ pub fn integrate(
         reference: gather(&face.nodes, sides.reference),
         normals: sides.normals(face),
     };
+    let ends = |f: &usize| sides.facets[*f].continues.contains(&false);
+    let opposite = Opposite {
+        ends: candidates.iter().any(ends),
+        candidates,
+    };
     for cell in cells(face.kind, &face.nodes, sides.reference) {
         let normal = view.cell_normal(cell);
         match face.kind.dim() {
             1 => Interval::new(&view, cell, normal)
                 .iter()
-                .for_each(|w| meet(w, &view, normal, sides, candidates, scratch, out)),
+                .for_each(|w| meet(w, &view, normal, sides, opposite, scratch, out)),
             _ => Plane::new(&view, cell, normal)
                 .iter()
-                .for_each(|w| meet(w, &view, normal, sides, candidates, scratch, out)),
+                .for_each(|w| meet(w, &view, normal, sides, opposite, scratch, out)),
         }
     }
     let covered: f64 = scratch.samples.iter().map(|s| s.w).sum();
@@ -60,19 +65,31 @@ pub fn integrate(
     sum((face, merged), sides, &scratch.samples, out);
 }
 
+/// Facets that may lie opposite, and whether an outer edge of the primary is among theirs.
+#[derive(Clone, Copy)]
+struct Opposite<'a> {
+    candidates: &'a [usize],
+    ends: bool,
+}
+
 /// Adds the quadrature points of a cell that have facets opposite.
 fn meet<W: Window>(
     window: &W,
     view: &View,
     normal: Vec3,
     sides: &Sides,
-    candidates: &[usize],
+    opposite: Opposite,
     scratch: &mut Scratch,
     out: &mut FaceIntegral,
 ) {
-    let own = Patch::new(view.face.kind, &view.x[..view.face.nodes.len()]);
-    let outward = rim::normal(&own).unwrap_or(normal);
-    for &f in candidates {
+    let outward = match opposite.ends {
+        true => {
+            let own = Patch::new(view.face.kind, &view.x[..view.face.nodes.len()]);
+            rim::normal(&own).unwrap_or(normal)
+        }
+        false => normal,
+    };
+    for &f in opposite.candidates {
         let facet = &sides.facets[f];
         let x = gather(&facet.nodes, sides.x);
         let x = &x[..facet.nodes.len()];
@@ -98,7 +115,8 @@ fn meet<W: Window>(
                 x: &view.x[..view.face.nodes.len()],
                 outward,
                 sides,
-                candidates,
+                candidates: opposite.candidates,
+                ends: opposite.ends,
                 facet: f,
             };
             window.places(&part, facet.kind, &mut |xi, w| {

@@ -29,8 +29,9 @@ pub(super) struct Rim<'a> {
     pub x: &'a [Vec3],
     pub outward: Vec3,
     pub sides: &'a Sides<'a>,
-    /// What may lie opposite the face, and the facet that does.
+    /// What may lie opposite the face, whether the primary ends at an edge of any of it, and the facet that does.
     pub candidates: &'a [usize],
+    pub ends: bool,
     pub facet: usize,
 }
 
@@ -38,6 +39,9 @@ impl Rim<'_> {
     /// The gradient of a gap that is measured along `normal` from the place `from` of the face to `foot` on the facet, whose normal is `m`.
     pub fn direction(&self, (from, normal): (Vec3, Vec3), (foot, m): (Vec3, Vec3)) -> Vec3 {
         let plain = scale(-1.0 / dot(normal, m), m);
+        if !self.ends {
+            return plain;
+        }
         let tilt = norm(cross(self.outward, m));
         let [flat, edge] = ANGLES;
         let share = ((tilt - flat) / (edge - flat)).min(1.0);
@@ -64,7 +68,7 @@ impl Rim<'_> {
                 return false;
             };
             x = add_scaled(x, length, way);
-            if !facet.continues.get(edge).is_none_or(|&c| c) {
+            if facet.continues.get(edge) == Some(&false) {
                 let size = norm(sub(nodes[0], nodes[1]));
                 return !self.mirrored(x, size) && self.secondary_reaches(from, x, way);
             }

@@ -237,6 +237,7 @@ impl Problem {
         let model = Model {
             title: self.title.clone().unwrap_or_default(),
             space,
+            size: mesh.diameter(),
             dofs,
             links: links.with_followers(followers),
             frames,

@@ -106,7 +106,7 @@ impl Solver {
 fn extra(widened: usize, model: &Model) -> f64 {
     match widened {
         0 => 0.0,
-        n => 0.01 * f64::powi(4.0, n as i32 - 1) * model.mesh.diameter(),
+        n => 0.01 * f64::powi(4.0, n as i32 - 1) * model.size,
     }
 }
 

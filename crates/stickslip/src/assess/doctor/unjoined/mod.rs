@@ -234,7 +234,7 @@ fn first(scene: &Scene, i: usize) -> bool {
 
 /// Whether two interfaces have one obstacle. Each counts coordinates from a place of its own, so surfaces are compared where the points are.
 fn same(model: &Model, a: &InterfaceDefinition, b: &InterfaceDefinition) -> bool {
-    let rounding = ROUNDING * model.mesh.diameter();
+    let rounding = ROUNDING * model.size;
     let times = model.steps.iter().flat_map(|s| [s.start, s.end]);
     let asked: Vec<Vec3> = [a, b]
         .into_iter()
@@ -407,7 +407,7 @@ impl Unjoined {
 impl Placed<'_> {
     /// Whether an overlap is more than at the start, and more than rounding, of two that have moved so far against each other.
     fn worse(&self, found: &Overlap, pair: &Pair, moved: f64) -> bool {
-        let least = (DEEPER * moved).max(ROUNDING * self.scene.model.mesh.diameter());
+        let least = (DEEPER * moved).max(ROUNDING * self.scene.model.size);
         found.depth - pair.start.depth > least
     }
 

@@ -81,7 +81,7 @@ impl Placed<'_> {
     /// The deepest of the points of one boundary within another body.
     pub(super) fn inside(&self, points: &Boundary, body: &Boundary) -> Overlap {
         let (low, high) = self.bounds(body);
-        let rounding = ROUNDING * self.scene.model.mesh.diameter();
+        let rounding = ROUNDING * self.scene.model.size;
         let flat = self.scene.model.mesh.dim;
         let within =
             |x: &Vec3| (0..flat).all(|c| x[c] > low[c] + rounding && x[c] < high[c] - rounding);
