@@ -11,7 +11,7 @@ use super::kernel::{self, Scratch};
 use super::medium::Medium;
 use super::scheme::stiffness_rule;
 use super::waves::in_order;
-use super::{Formulation, Space, Temperatures};
+use super::{Formulation, Space, Temperatures, extrapolate};
 use crate::error::Diagnostic;
 use crate::linear::{BlockCsr, Digest};
 use crate::material::{Dilation, Stiffness, constrained_modulus, plane_stress};
@@ -43,6 +43,8 @@ pub struct Elastic {
     pub(super) parts: Vec<Part>,
     /// Stiffness as it acts in the space (condensed for plane stress), by part.
     pub(super) acting: Vec<Stiffness>,
+    /// What takes values at quadrature points to the nodes of a cell, by part.
+    pub(super) to_nodes: Vec<Vec<Vec<f64>>>,
     pub(super) points: Vec<usize>,
     pub(super) temperatures: Option<Arc<Temperatures>>,
     pub(super) corotational: bool,
@@ -111,6 +113,7 @@ impl Elastic {
         points.sort_unstable();
         points.dedup();
         let acting = acting_stiffness(space, &parts);
+        let to_nodes = to_nodes(&mesh, &parts, space, formulation);
         Ok(Elastic {
             name,
             mesh,
@@ -118,6 +121,7 @@ impl Elastic {
             formulation,
             parts,
             acting,
+            to_nodes,
             points,
             temperatures: None,
             corotational: false,
@@ -264,6 +268,19 @@ impl Elastic {
             |cell, dense| visit(&block.connectivity[cell * N..(cell + 1) * N], dense),
         );
     }
+}
+
+/// What takes values at quadrature points to the nodes of the cells, by part.
+pub(super) fn to_nodes(
+    mesh: &Mesh,
+    parts: &[Part],
+    space: Space,
+    formulation: Formulation,
+) -> Vec<Vec<Vec<f64>>> {
+    let kinds = parts.iter().map(|part| mesh.blocks[part.block].kind);
+    kinds
+        .map(|kind| extrapolate::matrix(kind, space, formulation))
+        .collect()
 }
 
 /// The stiffness of parts as it acts in the space: condensed for plane stress.

@@ -1,7 +1,7 @@
 //! Output fields of a body.
 
 use super::geometry::by_nodes;
-use super::{At, Elastic, extrapolate};
+use super::{At, Elastic};
 use crate::system::{Fields, Location, State};
 
 /// The von Mises stress of a stress xx yy zz xy yz xz, in its unit.
@@ -48,7 +48,7 @@ impl<const K: usize> Sums<K> {
     /// Adds the values of a part of a body, and returns energy and volume of every cell.
     fn add_part<const N: usize>(&mut self, body: &Elastic, part: usize, at: At) -> Vec<[f64; 2]> {
         let block = &body.mesh.blocks[body.parts[part].block];
-        let fit = extrapolate::matrix(block.kind, body.space, body.formulation);
+        let fit = &body.to_nodes[part];
         let of = self.of;
         let mut energies = Vec::with_capacity(block.connectivity.len() / N);
         body.each_cell::<N>(
@@ -57,7 +57,7 @@ impl<const K: usize> Sums<K> {
             K * N + 2,
             |_, _, recovered, values| {
                 let (at_nodes, cell) = values.split_at_mut(K * N);
-                for (out, row) in at_nodes.chunks_exact_mut(K).zip(&fit) {
+                for (out, row) in at_nodes.chunks_exact_mut(K).zip(fit) {
                     out.fill(0.0);
                     for (q, weight) in row.iter().enumerate() {
                         let [strain, thermal, stress] = recovered.at(q);

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use super::elastic::acting_stiffness;
+use super::elastic::{acting_stiffness, to_nodes};
 use super::{Elastic, Formulation, Part, Space};
 use crate::keep::{Broken, Keep, Kept, layout};
 use crate::linear::{BlockCsr, Digest};
@@ -165,6 +165,7 @@ impl Portion {
             space,
             formulation: self.formulation,
             acting: acting_stiffness(space, &parts),
+            to_nodes: to_nodes(&self.mesh, &parts, space, self.formulation),
             parts,
             points: Vec::new(),
             mesh: Arc::new(self.mesh),
