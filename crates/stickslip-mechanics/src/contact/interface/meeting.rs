@@ -20,6 +20,16 @@ pub struct Meeting {
     pub touching: Vec<(usize, Option<usize>)>,
 }
 
+impl Meeting {
+    /// Nothing is met, however far.
+    fn none() -> Self {
+        Meeting {
+            way: f64::INFINITY,
+            touching: Vec::new(),
+        }
+    }
+}
+
 /// Part of the gap at which a point that just touches is given a stiffness.
 const CLOSE: f64 = 0.5;
 
@@ -35,10 +45,7 @@ const STRIDE: f64 = 0.5;
 /// How much of the motion `w` (by dof, added to displacements `u`) can be made at time `t` until points of the secondary touch the
 /// primary.
 pub fn meeting(interface: &mut Interface, u: &[f64], w: &[f64], t: f64) -> Meeting {
-    let none = Meeting {
-        way: f64::INFINITY,
-        touching: Vec::new(),
-    };
+    let none = Meeting::none();
     let speeds: Vec<Vec3> = (interface.nodes.iter())
         .map(|&node| interface.dofs.vector(w, node))
         .collect();
@@ -66,10 +73,7 @@ fn meeting_obstacle(
     largest: f64,
     t: f64,
 ) -> Meeting {
-    let mut meeting = Meeting {
-        way: f64::INFINITY,
-        touching: Vec::new(),
-    };
+    let mut meeting = Meeting::none();
     let Primary::Rigid(shape, motion) = &interface.primary else {
         return meeting;
     };
@@ -165,10 +169,7 @@ fn meeting_facets(
     largest: f64,
     t: f64,
 ) -> Meeting {
-    let mut meeting = Meeting {
-        way: f64::INFINITY,
-        touching: Vec::new(),
-    };
+    let mut meeting = Meeting::none();
     update_candidates(interface.definition, search, x);
     let feet = closest_of_all(interface.definition, x, search);
     let facets = interface.facets();
