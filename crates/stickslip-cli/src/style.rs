@@ -141,7 +141,8 @@ pub fn sentence(text: &str) -> String {
     let mut begun = false;
     for word in text.split_whitespace() {
         if begun && line.chars().count() + 1 + word.chars().count() > WIDTH {
-            lines.push(std::mem::replace(&mut line, " ".repeat(indent + 2)));
+            lines.push(line);
+            line = " ".repeat(indent + 2);
             begun = false;
         }
         if begun {

@@ -9,7 +9,7 @@ use stickslip::contact::look;
 
 use stickslip::Error;
 use stickslip::body::CellState;
-use stickslip::contact::interface::Interface;
+use stickslip::contact::interface::ContactView;
 use stickslip::io::Growing;
 use stickslip::math::{Vec3, add, cross, dot, norm, scale, sub};
 use stickslip::results::{Analysis, Event, Observer};
@@ -431,14 +431,14 @@ impl Printer {
         keys: &[String],
         totals: Totals,
     ) {
-        let of_pair = |i: &&Interface| match pair {
+        let of_pair = |i: &ContactView| match pair {
             Some((slave, master)) => self
                 .pairs
                 .iter()
                 .any(|(name, s, m)| *name == i.name && s == slave && m == master),
             None => self.pairs.iter().any(|(name, ..)| *name == i.name),
         };
-        let interfaces = || analysis.contact.interfaces.iter().filter(of_pair);
+        let interfaces = || analysis.contacts().filter(of_pair);
         let all = |what: &str| {
             format!(
                 "\n {what} for all contact elements and time{}\n\n",
@@ -479,7 +479,7 @@ impl Printer {
                         "\n total contact spring energy for time {}\n\n",
                         time(self.time)
                     ));
-                    let sum: f64 = interfaces().map(|i| look::energy(i.view()).stored).sum();
+                    let sum: f64 = interfaces().map(|i| look::energy(i).stored).sum();
                     row(out, "      ", &[sum]);
                 }
                 "CF" | "CFN" | "CFS" => {
@@ -506,11 +506,11 @@ impl Printer {
     fn points_in_contact(
         &self,
         analysis: &Analysis,
-        interface: &Interface,
+        interface: ContactView,
         out: &mut String,
         gaps: bool,
     ) {
-        let (names, columns) = look::table(interface.view(), &analysis.frame.state.u);
+        let (names, columns) = look::table(interface, &analysis.frame.state.u);
         let column = |name: &str| names.iter().position(|n| n == name).map(|i| &columns[i]);
         let value = |name: &str, i: usize| column(name).map_or(0.0, |c| c[i]);
         let count = columns.first().map_or(0, Vec::len);
@@ -529,13 +529,13 @@ impl Printer {
     }
 
     /// What is stored at the points of an interface that are in contact.
-    fn energies_in_contact(&self, analysis: &Analysis, interface: &Interface, out: &mut String) {
-        let (names, columns) = look::table(interface.view(), &analysis.frame.state.u);
+    fn energies_in_contact(&self, analysis: &Analysis, interface: ContactView, out: &mut String) {
+        let (names, columns) = look::table(interface, &analysis.frame.state.u);
         let column = |name: &str| names.iter().position(|n| n == name).map(|i| &columns[i]);
         let (Some(nodes), Some(status)) = (column("node"), column("CSTATUS")) else {
             return;
         };
-        let stored = look::stored_by_point(interface.view());
+        let stored = look::stored_by_point(interface);
         for (energy, (node, status)) in stored.iter().zip(nodes.iter().zip(status)) {
             if *status > 0.0 {
                 row(out, &self.label(*node as u64), &[*energy]);
@@ -550,8 +550,8 @@ impl Printer {
 }
 
 /// How many points of an interface are in contact.
-fn count_in_contact(analysis: &Analysis, interface: &Interface) -> usize {
-    let (names, columns) = look::table(interface.view(), &analysis.frame.state.u);
+fn count_in_contact(analysis: &Analysis, interface: ContactView) -> usize {
+    let (names, columns) = look::table(interface, &analysis.frame.state.u);
     let at = names.iter().position(|n| n == "CSTATUS");
     at.map_or(0, |c| columns[c].iter().filter(|s| **s > 0.0).count())
 }
@@ -594,20 +594,20 @@ enum Part {
 /// What `CF`, `CFN` and `CFS` print of a pair.
 fn statistics(
     analysis: &Analysis,
-    interface: &Interface,
+    interface: ContactView,
     out: &mut String,
     part: Part,
     (slave, master): (&str, &str),
     t: f64,
 ) {
     let u = &analysis.frame.state.u;
-    let r = look::resultant(interface.view(), u);
+    let r = look::resultant(interface, u);
     let (force, moment) = match part {
         Part::Whole => (add(r.normal, r.shear), r.moment),
         Part::Normal => (r.normal, sub(r.moment, r.moment_of_shear)),
         Part::Shear => (r.shear, r.moment_of_shear),
     };
-    let (centre, normal) = look::centre_and_normal(interface.view(), u);
+    let (centre, normal) = look::centre_and_normal(interface, u);
     let about = sub(moment, cross(centre, force));
     let _ = write!(
         out,

@@ -235,7 +235,7 @@ impl Simulation {
 
     /// Leaves the numbers that somebody still looks at where they are, and goes on with a copy.
     fn release(&mut self) {
-        for (quantity, kept) in std::mem::take(&mut self.looked) {
+        while let Some((quantity, kept)) = self.looked.pop() {
             if let Some(kept) = kept.upgrade()
                 && let Ok(mut place) = kept.0.lock()
             {

@@ -81,12 +81,14 @@ fn nested_dissection(graph: &Graph) -> Option<Vec<u32>> {
 /// What comes back from C is checked before it is used as indices.
 fn is_permutation(order: &[i32]) -> bool {
     let mut seen = vec![false; order.len()];
-    order.iter().all(|&node| {
-        usize::try_from(node)
-            .ok()
-            .and_then(|node| seen.get_mut(node))
-            .is_some_and(|seen| !std::mem::replace(seen, true))
-    })
+    for &node in order {
+        let place = usize::try_from(node).ok();
+        match place.and_then(|node| seen.get_mut(node)) {
+            Some(seen) if !*seen => *seen = true,
+            _ => return false,
+        }
+    }
+    true
 }
 
 /// Approximate minimum degree; the given order if it runs out of memory.
@@ -134,7 +136,8 @@ pub(super) fn elimination_tree(graph: &Graph, order: &[u32]) -> Vec<u32> {
                 continue;
             }
             loop {
-                let next = std::mem::replace(&mut ancestors[at as usize], step);
+                let next = ancestors[at as usize];
+                ancestors[at as usize] = step;
                 if next == step {
                     break;
                 }
@@ -156,7 +159,8 @@ fn postorder(parents: &[u32]) -> Vec<u32> {
     let mut next_sibling = vec![NONE; n];
     for step in (0..n).rev() {
         if let Some(first) = first_child.get_mut(parents[step] as usize) {
-            next_sibling[step] = std::mem::replace(first, step as u32);
+            next_sibling[step] = *first;
+            *first = step as u32;
         }
     }
     let mut order = Vec::with_capacity(n);
@@ -164,7 +168,7 @@ fn postorder(parents: &[u32]) -> Vec<u32> {
     for root in (0..n).filter(|&step| parents[step] == NONE) {
         stack.push(root as u32);
         while let Some(&top) = stack.last() {
-            let child = std::mem::replace(&mut first_child[top as usize], NONE);
+            let child = first_child[top as usize];
             if child == NONE {
                 order.push(top);
                 stack.pop();

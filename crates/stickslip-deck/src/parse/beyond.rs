@@ -89,9 +89,8 @@ impl Reader<'_> {
             return self.errors;
         }
         let mut findings: Vec<Finding> = Vec::new();
-        let mut beyond = std::mem::take(&mut self.beyond);
-        beyond.sort_by_key(|b| (b.place.file, b.place.line));
-        for b in &beyond {
+        self.beyond.sort_by_key(|b| (b.place.file, b.place.line));
+        for b in &self.beyond {
             findings.push(self.finding(Severity::Error, b.place, b.message(), b.help));
         }
         let misspelt: BTreeSet<_> = self.formal.iter().map(|p| (p.file, p.line)).collect();
@@ -100,8 +99,7 @@ impl Reader<'_> {
             let file = files.iter().position(|p| *p == f.file).unwrap_or_default();
             misspelt.contains(&(file, f.line))
         };
-        let (kept, left): (Vec<Finding>, Vec<Finding>) =
-            std::mem::take(&mut self.errors).into_iter().partition(own);
+        let (kept, left): (Vec<Finding>, Vec<Finding>) = self.errors.drain(..).partition(own);
         findings.extend(kept);
         if !left.is_empty() {
             let message = format!(

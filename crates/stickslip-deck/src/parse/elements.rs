@@ -44,7 +44,8 @@ impl Reader<'_> {
     /// Lines and faces without a section bound the cells beside them, and are there for their sets: Gmsh writes them. Without such cells,
     /// or with a section, they are meant to be computed.
     pub(super) fn judge_bounding(&mut self) {
-        for (kind, place) in std::mem::take(&mut self.bounding) {
+        let bounding: Vec<_> = self.bounding.drain(..).collect();
+        for (kind, place) in bounding {
             let flat = kind.starts_with("T") || kind.starts_with("B");
             let unsupported = abaqus::element_type(&kind).err();
             let cells = self.deck.elements.values().any(|e| {
@@ -120,7 +121,8 @@ impl Reader<'_> {
     /// Elements whose nodes have not come.
     pub(super) fn judge_waiting(&mut self) {
         let mut said = BTreeSet::new();
-        for (id, place) in std::mem::take(&mut self.waiting) {
+        let waiting: Vec<_> = self.waiting.drain(..).collect();
+        for (id, place) in waiting {
             let absent = |n: &&u64| !self.deck.nodes.contains_key(n);
             let Some(n) = self.deck.elements[&id].nodes.iter().find(absent) else {
                 continue;

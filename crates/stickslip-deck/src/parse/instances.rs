@@ -274,8 +274,9 @@ impl Reader<'_> {
         self.scope = Some(self.deck.numbering.add(name));
         self.structure.instance = Some(OpenInstance {
             place: card.place,
-            system: std::mem::replace(&mut self.system, Motion::NONE),
+            system: self.system.clone(),
         });
+        self.system = Motion::NONE;
         if let Some(part) = card.get("PART").map(str::to_string) {
             self.read_part(&part, card.place);
         }

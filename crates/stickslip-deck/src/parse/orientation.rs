@@ -203,31 +203,34 @@ impl Reader<'_> {
 
     /// Gives orientations the axes of their distributions, which may stand behind them.
     pub(super) fn settle_distributions(&mut self) {
-        let mut orientations = std::mem::take(&mut self.deck.orientations);
-        let distributions = std::mem::take(&mut self.deck.distributions);
-        for o in orientations.values_mut() {
-            let Some(name) = o.taken.distribution.clone() else {
+        let orientations: Vec<_> = (self.deck.orientations.iter())
+            .map(|(key, o)| (key.clone(), o.place, o.taken.clone()))
+            .collect();
+        for (key, place, taken) in orientations {
+            let Some(name) = taken.distribution.clone() else {
                 continue;
             };
             let bare = self.deck.numbering.bare(&name).to_string();
+            let distributions = &self.deck.distributions;
             let known = distributions
                 .get(&name)
                 .or_else(|| distributions.get(&bare));
-            let Some(distribution) = known else {
+            let Some(lines) = known.map(|distribution| distribution.lines.clone()) else {
                 let all = distributions.keys();
                 let (message, help) = absent(&self.deck.numbering, "distribution", &name, all);
-                self.error(o.place, message, &help);
+                self.error(place, message, &help);
                 continue;
             };
-            for (i, line) in distribution.lines.iter().enumerate() {
+            let (mut general, mut single) = (None, Vec::new());
+            for (i, line) in lines.iter().enumerate() {
                 let DistributionLine {
                     elements,
                     points,
                     data,
                 } = line;
-                match o.taken.local(*points) {
-                    None => self.no_axes(data, o.taken.cylindrical),
-                    Some(local) if i == 0 => o.local = local,
+                match taken.local(*points) {
+                    None => self.no_axes(data, taken.cylindrical),
+                    Some(local) if i == 0 => general = Some(local),
                     Some(local) => {
                         // Sets may stand behind the distribution.
                         let all = match elements {
@@ -242,13 +245,14 @@ impl Reader<'_> {
                             }
                             None => Vec::new(),
                         };
-                        o.elements
-                            .extend(all.into_iter().map(|e| (e, local.clone())));
+                        single.extend(all.into_iter().map(|e| (e, local.clone())));
                     }
                 }
             }
+            if let Some(o) = self.deck.orientations.get_mut(&key) {
+                o.local = general.unwrap_or_else(|| o.local.clone());
+                o.elements.extend(single);
+            }
         }
-        self.deck.orientations = orientations;
-        self.deck.distributions = distributions;
     }
 }

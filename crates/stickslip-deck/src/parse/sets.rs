@@ -120,7 +120,8 @@ impl Reader<'_> {
     pub(super) fn judge_absent(&mut self) {
         // What a part lacks its instances lack as well: it is said once.
         let mut said = BTreeSet::new();
-        for (set, what, place) in std::mem::take(&mut self.absent) {
+        let absent: Vec<_> = self.absent.drain(..).collect();
+        for (set, what, place) in absent {
             if !said.insert((place, self.without_instances(&what))) {
                 continue;
             }

@@ -349,7 +349,8 @@ impl Force for Anchors {
 
     fn augment(&mut self, _stage: &Stage) -> Augmentation {
         let mut worst: f64 = 0.0;
-        let effort = std::mem::take(&mut self.evaluations);
+        let effort = self.evaluations;
+        self.evaluations = 0;
         let carried = self.groups.iter().map(|g| g.carried(self.others));
         let carried = carried.fold(0.0, f64::max);
         if carried <= NEGLIGIBLE {

@@ -222,12 +222,13 @@ fn entries(lines: &mut Lines, n: usize) -> Result<Vec<f64>, TextFault> {
             );
             return Err(fault(line, message));
         };
-        if std::mem::replace(&mut given[row * n + column], true) {
+        if given[row * n + column] {
             return Err(fault(
                 line,
                 format!("entry {row} {column} of `W` is given twice"),
             ));
         }
+        given[row * n + column] = true;
         operator[row * n + column] = number(line, value)?;
     }
     Ok(operator)

@@ -102,8 +102,7 @@ impl Factors {
 
     /// What a user should know and has not been told yet.
     pub fn notes(&mut self) -> Vec<String> {
-        let mut notes = std::mem::take(&mut self.notes);
-        notes.extend(self.kept.iter_mut().filter_map(|(_, l)| l.note()));
-        notes
+        let made = self.kept.iter_mut().filter_map(|(_, l)| l.note());
+        self.notes.drain(..).chain(made).collect()
     }
 }

@@ -380,7 +380,8 @@ impl Grids {
         let mut normals = Vec::new();
         let mut known = vec![false; operator.matrix.points()];
         for pair in operator.pairs {
-            if gaps.is_gap(pair.point) && !std::mem::replace(&mut known[pair.point], true) {
+            if gaps.is_gap(pair.point) && !known[pair.point] {
+                known[pair.point] = true;
                 normals.push((pair.point, pair.normal));
             }
         }

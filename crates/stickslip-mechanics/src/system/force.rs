@@ -78,7 +78,7 @@ pub struct Energy {
 /// matrix and the right-hand side, and need no trait.
 ///
 /// The equilibrium equation is `Σ residual = 0` with the residual counted as *internal minus external* force.
-/// A force is evaluated from **committed** history only; a rejected attempt simply never calls [`commit`](Force::commit).
+/// A force is evaluated from **committed** history only, to which it has a shared reference.
 pub trait Force: Send {
     /// Search and pairing at a state of iteration.
     fn prepare(&mut self, _stage: &Stage) {}
@@ -119,9 +119,6 @@ pub trait Force: Send {
 
     /// Takes forces by point, normal and two of shear, for those at the state of the last evaluation.
     fn adopt(&mut self, _forces: &[Option<[f64; 3]>]) {}
-
-    /// Accepts the attempt: committed history := trial.
-    fn commit(&mut self, _stage: &Stage) {}
 
     /// How many points changed status between the last two assemblies, and a short tally for the log.
     fn tally(&self) -> Option<Tally> {

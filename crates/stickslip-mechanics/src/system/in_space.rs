@@ -117,8 +117,7 @@ impl InSpace {
 
     /// Adds forces in space by dof to those on bodies and frames, and empties them.
     fn forces(&self, spatial: &mut [f64], out: &mut [f64]) {
-        for (dof, force) in spatial.iter_mut().enumerate() {
-            let force = std::mem::take(force);
+        for (dof, &force) in spatial.iter().enumerate() {
             if force == 0.0 {
                 continue;
             }
@@ -127,5 +126,6 @@ impl InSpace {
                 Some(row) => row.iter().for_each(|&(d, factor)| out[d] += factor * force),
             }
         }
+        spatial.fill(0.0);
     }
 }

@@ -289,14 +289,16 @@ impl Links {
     /// `Tᵀ f`: moves the forces on points of rigid bodies to the hidden dofs.
     pub fn transfer(&self, f: &mut [f64]) {
         for Follower { dof, row } in &self.followers {
-            let force = std::mem::take(&mut f[*dof]);
+            let force = f[*dof];
+            f[*dof] = 0.0;
             if force != 0.0 {
                 row.iter()
                     .for_each(|&(other, factor)| f[other] += factor * force);
             }
         }
         self.rows(&mut |dof, row| {
-            let force = std::mem::take(&mut f[dof]);
+            let force = f[dof];
+            f[dof] = 0.0;
             if force != 0.0 {
                 for (hidden, factor) in row {
                     f[hidden] += factor * force;

@@ -130,21 +130,34 @@ pub(crate) fn explain_singular(view: &View, failure: &StepFailure) -> RunError {
 
 /// Gaps at the start, by interface.
 pub(crate) fn start_gaps(model: &Model, frame: &Frame, contact: &mut Contact) -> Vec<Vec<f64>> {
-    let start = &frame.state;
+    let end = soon(model, &frame.state);
+    let stage = beginning(&frame.state, &end);
+    let interfaces = contact
+        .interfaces
+        .iter_mut()
+        .zip(&frame.contacts.interfaces);
+    let gaps = interfaces.map(|(i, history)| gaps_at(&mut i.force(history), &stage));
+    gaps.collect()
+}
+
+/// A state at the start of the analysis as it is a moment later.
+pub(crate) fn soon(model: &Model, start: &State) -> State {
     let steps = model.steps.first();
-    let end = State {
+    State {
         t: start.t + steps.map_or(1.0, |s| 1e-9 * (s.end - s.start)),
         ..start.clone()
-    };
-    let stage = Stage {
+    }
+}
+
+/// The first moment of the analysis.
+pub(crate) fn beginning<'a>(start: &'a State, end: &'a State) -> Stage<'a> {
+    Stage {
         from: start,
-        at: &end,
+        at: end,
         dt: end.t - start.t,
         rate: None,
         frames: None,
-    };
-    let interfaces = contact.interfaces.iter_mut();
-    interfaces.map(|i| gaps_at(i, &stage)).collect()
+    }
 }
 
 impl View<'_> {

@@ -283,7 +283,9 @@ impl View<'_> {
         let tied = self.contacts();
         let tied = tied
             .filter_map(|i| Some((format!("interface {}", i.name), look::tie_spring_energy(i)?)));
-        let coupled = self.contact.couplings.spring_energies().into_iter();
+        let coupled = (self.contact.couplings)
+            .spring_energies(&self.frame.contacts.couplings)
+            .into_iter();
         let coupled = coupled.map(|(name, stored)| (format!("coupling {name}"), stored));
         for (place, stored) in tied.chain(coupled) {
             let limit = limits.explicit_opening;

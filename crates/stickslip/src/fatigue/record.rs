@@ -13,6 +13,38 @@ pub struct Record {
     pub found: Vec<Found>,
 }
 
+/// What there is to note of an increment.
+pub struct Increment {
+    /// A cycle begins with it.
+    pub begins: bool,
+    /// Stress of the points that are looked at `[Pa]`.
+    pub stress: Vec<f64>,
+    /// Normal, shear and slip at the nodes of interfaces.
+    pub rubbed: Vec<[Vec3; 3]>,
+}
+
+impl Record {
+    /// Takes note of an increment.
+    pub fn enter(&mut self, increment: Increment) {
+        if increment.begins {
+            self.clear();
+        }
+        self.stress.push(increment.stress);
+        self.rubbed.push(increment.rubbed);
+    }
+
+    /// The cycle is over, and this was found of it.
+    pub fn close(&mut self, found: Vec<Found>) {
+        self.found = found;
+        self.clear();
+    }
+
+    fn clear(&mut self) {
+        self.stress.clear();
+        self.rubbed.clear();
+    }
+}
+
 /// What a criterion said of a cycle.
 #[derive(Debug, Clone, Default)]
 pub struct Found {

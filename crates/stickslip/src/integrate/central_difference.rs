@@ -10,6 +10,7 @@ use super::exact::Exact;
 use super::explicit::{Explicit, unstable};
 use super::integrator::Integrator;
 use super::sight::frames_here;
+use crate::contact::look;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
@@ -99,7 +100,7 @@ impl Integrator for Explicit {
             .help("lower `safety` of the scheme, or give a penalty that is less stiff"));
         }
         Ok(Accepted {
-            tally: contact.interfaces.iter().filter_map(Force::tally).sum(),
+            tally: contact.interfaces.iter().map(look::tally).sum(),
             forces,
             contact: acted,
             external,
@@ -232,14 +233,13 @@ impl Explicit {
             rate: None,
             frames: frames.as_ref(),
         };
-        let mut interfaces = contact.interfaces.iter_mut();
-        let assembled = interfaces.try_for_each(|interface| {
+        let mut forces = contact.forces(&frame.contacts);
+        for interface in &mut forces.interfaces {
             interface.begin();
             interface.prepare(&stage);
-            interface.assemble(&stage, &mut self.out)
-        });
-        assembled?;
-        contact.couplings.assemble(&stage, &mut self.out)?;
+            interface.assemble(&stage, &mut self.out)?;
+        }
+        forces.couplings.assemble(&stage, &mut self.out)?;
         model.links.transfer(&mut self.out.residual);
         Ok(())
     }
@@ -252,7 +252,7 @@ impl Explicit {
         drift: &mut Drift,
         (at, dt): (&mut State, f64),
     ) -> Result<Vec<f64>, StepFailure> {
-        self.exact.lead(&model.links, contact, at.t);
+        (self.exact).lead(&model.links, contact, drift.from(), at.t);
         if self.exact.is_empty() {
             return Ok(Vec::new());
         }
@@ -273,7 +273,7 @@ impl Explicit {
         (external, more): (&[f64], &[f64]),
         at: &State,
     ) -> Result<(), StepFailure> {
-        let mut exact = Exact::gather(model, contact, at.t, &self.exact);
+        let mut exact = Exact::gather((model, drift.from()), contact, at.t, &self.exact);
         if !exact.is_empty() {
             let mobility = self.mobility(constraints);
             let balance = |i: usize| external[i] - self.force[i] - self.out.residual[i];

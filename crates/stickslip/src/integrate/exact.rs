@@ -92,9 +92,15 @@ impl Mobility<'_> {
 
 impl Exact {
     /// The rows that hold at time `t`, those of ties as they were at the last evaluation. What is known of the forces `before` is kept.
-    pub fn gather(model: &Model, contact: &Contact, t: f64, before: &Exact) -> Exact {
+    pub fn gather(
+        (model, frame): (&Model, &Frame),
+        contact: &Contact,
+        t: f64,
+        before: &Exact,
+    ) -> Exact {
+        let contacts = &frame.contacts;
         let links = &model.links;
-        let coupled = contact.couplings.exact_rows(t);
+        let coupled = contact.couplings.exact_rows(&contacts.couplings, t);
         let mut out = Exact::default();
         for (i, row, target) in coupled {
             let known = before.coupled.get(out.coupled.len());
@@ -104,12 +110,13 @@ impl Exact {
             };
             out.coupled.push((i, target));
             out.terms.push(terms);
-            out.forces.push(contact.couplings.exact_force(i));
+            out.forces.push(contacts.couplings.exact_force(i));
         }
         let forces = before.forces[before.coupled.len()..].iter();
         let mut known = before.tied.iter().zip(forces);
-        for (k, interface) in contact.interfaces.iter().enumerate() {
-            for row in look::tie_rows(interface) {
+        let interfaces = contact.interfaces.iter().zip(&contacts.interfaces);
+        for (k, (interface, history)) in interfaces.enumerate() {
+            for row in look::tie_rows(interface, history) {
                 let of = [k, row.point, row.direction];
                 // The rows of a tie are the same from one increment to the next.
                 let force = known.next().filter(|(known, _)| **known == of);
@@ -131,8 +138,9 @@ impl Exact {
     }
 
     /// Takes what couplings hold at time `t`.
-    pub fn lead(&mut self, links: &Links, contact: &Contact, t: f64) {
-        let rows: Vec<_> = contact.couplings.exact_rows(t).collect();
+    pub fn lead(&mut self, links: &Links, contact: &Contact, frame: &Frame, t: f64) {
+        let memory = &frame.contacts.couplings;
+        let rows: Vec<_> = contact.couplings.exact_rows(memory, t).collect();
         let known = |(row, (i, _)): (&(usize, _, f64), &(usize, f64))| row.0 == *i;
         let same = rows.len() == self.coupled.len() && rows.iter().zip(&self.coupled).all(known);
         if !same {
@@ -153,7 +161,9 @@ impl Exact {
     /// The forces along the rows, which become zero. Nothing is off where a step begins.
     pub fn begin(&mut self) -> Vec<f64> {
         self.ties.iter_mut().for_each(|[_, off, _]| *off = 0.0);
-        std::mem::replace(&mut self.forces, vec![0.0; self.terms.len()])
+        let forces = self.forces.clone();
+        self.forces.fill(0.0);
+        forces
     }
 
     /// Adds forces along the rows.

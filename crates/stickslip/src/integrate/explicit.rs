@@ -11,7 +11,7 @@ use std::sync::Arc;
 use super::exact::{Exact, Mobility};
 use super::onset::{AFTER, initial_contact, look_at_contact};
 use crate::body::internal::{InternalForce, largest_eigenvalue};
-use crate::contact::interface::{Interface, use_springs};
+use crate::contact::interface::{History, Interface, use_springs};
 use crate::error::{Error, RunError};
 use crate::model::contact::Contact;
 use crate::model::definition::{Dynamic, Model};
@@ -273,12 +273,13 @@ impl Explicit {
         });
         let constraints = frame.constraints(model, soon);
         explicit.loaded = !model.loads.is_empty() || model.heat.is_some();
-        for interface in &mut contact.interfaces {
-            frame.ledger.initial += use_springs(interface, true);
+        let contacts = Arc::make_mut(&mut frame.contacts);
+        for (interface, history) in contact.interfaces.iter_mut().zip(&mut contacts.interfaces) {
+            frame.ledger.initial += use_springs(interface, history, true);
         }
-        let couplings = &mut contact.couplings;
-        couplings.use_springs(true);
-        couplings.start_explicit(frame.state.t, &frame.state.u);
+        let (couplings, memory) = (&mut contact.couplings, &mut contacts.couplings);
+        couplings.use_springs(memory, true);
+        couplings.start_explicit(memory, frame.state.t, &frame.state.u);
         couplings.fit_springs(soon, explicit.frequency, &explicit.inverse, &model.links);
         // What is in contact already bounds the first increment, too: the last evaluation, if there was one, was of other laws and multipliers.
         let alone = explicit.stable_alone().min(step.increments.largest);
@@ -297,7 +298,7 @@ impl Explicit {
         explicit.start_forces(model, frame, contact);
         explicit.start_acceleration(model, frame, &constraints);
         explicit.start_exactly(model, frame, contact, &constraints)?;
-        std::mem::swap(&mut explicit.damped, &mut explicit.damped_before);
+        explicit.damped_before.clone_from(&explicit.damped);
         explicit.still = still.then(|| Arc::new(constraints));
         Ok(explicit)
     }
@@ -311,7 +312,8 @@ impl Explicit {
         let strain: f64 = both.map(|(f, u)| f * u).sum();
         let strain = 0.5 * self.stored.unwrap_or(strain);
         let energy = &mut frame.ledger;
-        let strain = strain + contact.couplings.view().stored() + energy.thermal;
+        let strain =
+            strain + contact.couplings.view(&frame.contacts.couplings).stored() + energy.thermal;
         energy.initial += strain - energy.strain;
         energy.strain = strain;
         model.links.transfer(&mut self.force);
@@ -360,7 +362,7 @@ impl Explicit {
     ) -> Result<(), Error> {
         let step = &model.steps[frame.step];
         let soon = step.start + AFTER * (step.end - step.start);
-        let mut exact = Exact::gather(model, contact, soon, &Exact::default());
+        let mut exact = Exact::gather((model, frame), contact, soon, &Exact::default());
         if exact.is_empty() {
             return Ok(());
         }
@@ -376,7 +378,8 @@ impl Explicit {
         }
         exact.add_forces(&acting);
         exact.act((&Exact::default(), &[]), (contact, &model.links), &mut more);
-        contact.couplings.start_exactly();
+        let memory = &mut Arc::make_mut(&mut frame.contacts).couplings;
+        contact.couplings.start_exactly(memory);
         self.start_acceleration(model, frame, constraints);
         self.exact = exact;
         Ok(())
@@ -394,10 +397,10 @@ impl Explicit {
     /// Sums of the highest squared frequencies of interfaces and couplings now, and of the rates at which interfaces take velocity away.
     pub fn contact_frequency(&self, model: &Model, frame: &Frame, contact: &Contact) -> (f64, f64) {
         let step = &model.steps[frame.step];
-        let all = contact.interfaces.iter();
+        let all = contact.interfaces.iter().zip(&frame.contacts.interfaces);
         let links = &model.links;
-        let of = |i: &Interface| {
-            let squared = look::highest_frequency(i, &self.inverse, links);
+        let of = |(i, history): (&Interface, &History)| {
+            let squared = look::highest_frequency(i, history, &self.inverse, links);
             (squared, look::highest_rate(i, &self.inverse, links))
         };
         let (squared, rate) = all.map(of).fold((0.0, 0.0), |s, i| (s.0 + i.0, s.1 + i.1));

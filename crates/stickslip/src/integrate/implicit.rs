@@ -117,8 +117,8 @@ impl Implicit {
         let length = trial.to - trial.from;
         let times = [trial.from, trial.to];
         // A trial increment of Euler's method finds forces, and hands nothing on.
-        let impulse =
-            self.alphas != BACKWARD && is_impulse(model, &self.dynamic, contact, inertia, times);
+        let impulse = self.alphas != BACKWARD
+            && is_impulse((model, frame), &self.dynamic, contact, inertia, times);
         let scheme = self.meeting(impulse);
         let weights = scheme.weights(impulse);
         let interfaces = contact.interfaces.iter_mut();
@@ -229,7 +229,8 @@ impl Implicit {
                 frames,
             };
             let bodies = (model, inertia, fixed.as_slice());
-            flow.impact = stop(bodies, contact, &stage, &mut solved.state.v)?;
+            let mut forces = contact.forces(&frame.contacts);
+            flow.impact = stop(bodies, &mut forces.interfaces, &stage, &mut solved.state.v)?;
             inertia.lead(model, contact, (trial.to, &fixed), &mut solved.state.v);
         }
         Ok(Accepted {
@@ -365,6 +366,7 @@ impl Implicit {
             rate: Some(rate),
             frames,
             from: &frame.state,
+            contacts: &frame.contacts,
         };
         let mut converged = match condensed {
             true => solver.solve_condensed(model, contact, task(Load::Known(origin)), at)?,
@@ -425,8 +427,8 @@ impl Implicit {
         };
         let dt = trial.to - trial.from;
         let smallest = model.steps[frame.step].increments.smallest;
-        let interfaces = contact.interfaces.iter();
-        let switched: usize = interfaces.map(look::switched).sum();
+        let interfaces = contact.interfaces.iter().zip(&frame.contacts.interfaces);
+        let switched: usize = interfaces.map(|(i, h)| look::switched(i, h)).sum();
         if switched > 0 && dt > tolerance && 0.5 * dt >= smallest {
             return Err(StepFailure::new(
                 Cause::Event,

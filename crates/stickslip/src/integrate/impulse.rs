@@ -18,11 +18,12 @@
 //! the mass, on those with which pressed points stay where they are: the law of impact of
 //! [`jean_moreau_1992`](crate::references::jean_moreau_1992) with no restitution. A projection makes no energy.
 
-use crate::contact::interface::{Pressed, pressed_points};
+use crate::contact::interface::{InterfaceForce, Pressed, pressed_points};
 use crate::contact::look;
 use crate::math::vector::dot;
 use crate::model::contact::Contact;
 use crate::model::definition::{ContactAt, Dynamic, Model};
+use crate::model::frame::Frame;
 use crate::solve::inertia::Inertia;
 use crate::system::{Stage, StepFailure};
 
@@ -37,19 +38,18 @@ const LOST: f64 = 1e6;
 
 /// Whether contact is an impulse over an increment: of masses alone, with what does not give way and does not move.
 pub(super) fn is_impulse(
-    model: &Model,
+    (model, frame): (&Model, &Frame),
     dynamic: &Dynamic,
     contact: &Contact,
     inertia: &Inertia,
     [from, to]: [f64; 2],
 ) -> bool {
-    let acting = || contact.interfaces.iter().filter(|i| i.schedule.active(to));
+    let acting = || contact.views(frame).filter(|i| i.schedule.active(to));
     let light = |node: &usize| inertia.light[model.dofs.of(*node, 0)];
     dynamic.contact_at == ContactAt::End
         && contact.couplings.is_empty()
         && acting().next().is_some()
-        && acting()
-            .all(|i| look::is_hard(i.view()) && i.stands(from, to) && !i.nodes.iter().any(light))
+        && acting().all(|i| look::is_hard(i) && i.stands(from, to) && !i.nodes.iter().any(light))
 }
 
 /// `M⁻¹ f` over all dofs, zero where they are fixed.
@@ -70,11 +70,11 @@ pub(super) fn kicked(
 /// Stops pressed points, and gives the energy that this and the way to where they met have taken `[J]`.
 pub(super) fn stop(
     (model, inertia, fixed): (&Model, &Inertia, &[bool]),
-    contact: &mut Contact,
+    interfaces: &mut [InterfaceForce],
     stage: &Stage,
     v: &mut Vec<f64>,
 ) -> Result<f64, StepFailure> {
-    let interfaces = contact.interfaces.iter_mut();
+    let interfaces = interfaces.iter_mut();
     let pressed: Vec<Pressed> = interfaces.flat_map(|i| pressed_points(i, stage)).collect();
     let both = stage.at.u.iter().zip(&stage.from.u);
     let moved: Vec<f64> = both.map(|(a, b)| a - b).collect();

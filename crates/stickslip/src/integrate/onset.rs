@@ -1,5 +1,7 @@
 //! The start of a dynamic step: masses, velocities, and the forces and accelerations from which the first increment goes on.
 
+use std::sync::Arc;
+
 use super::implicit::{BACKWARD, Implicit, difference};
 use super::integrator::Integrator;
 use super::sight::frames_here;
@@ -94,7 +96,8 @@ impl Implicit {
             rate: None,
             frames: None,
         };
-        let mut interfaces = contact.interfaces.iter_mut();
+        let mut forces = contact.forces(&frame.contacts);
+        let mut interfaces = forces.interfaces.iter_mut();
         if !interfaces.any(|i| presses_light_points(i, &stage)) {
             return None;
         }
@@ -102,19 +105,18 @@ impl Implicit {
             from: frame.state.t,
             to: frame.state.t + AT_ONCE * dt,
         };
-        let couplings = contact.couplings.memory.clone();
         let damping = solver.inertia.as_mut()?.damping.take();
         let tried = self.euler().attempt(model, frame, contact, solver, trial);
         solver.seen.clear();
-        contact.couplings.memory = couplings;
         let inertia = solver.inertia.as_mut()?;
         inertia.damping = damping;
         // It knows of no damping.
         inertia.forget_matrices();
         let accepted = tried.ok()?;
-        for interface in &mut contact.interfaces {
+        let contacts = Arc::make_mut(&mut frame.contacts);
+        for (interface, history) in contact.interfaces.iter().zip(&mut contacts.interfaces) {
             let tried = tried_tractions(interface);
-            adopt_light_tractions(interface, &tried);
+            adopt_light_tractions(history, &interface.conditions, &tried);
         }
         let moved = frame.state.u.iter_mut().zip(&accepted.state.u);
         for ((u, to), _) in moved.zip(&inertia.light).filter(|(_, light)| **light) {
@@ -127,7 +129,8 @@ impl Implicit {
         };
         let energy = &mut frame.ledger;
         let strain = strain + energy.thermal;
-        energy.belt_work += strain - std::mem::replace(&mut energy.strain, strain);
+        energy.belt_work += strain - energy.strain;
+        energy.strain = strain;
         frame.motion.internal = internal;
         frame.motion.start.clone_from(&frame.state.u);
         Some(accepted.contact)
@@ -152,7 +155,7 @@ impl Implicit {
     fn tried_contact(
         &self,
         model: &Model,
-        frame: &Frame,
+        frame: &mut Frame,
         contact: &mut Contact,
         solver: &mut Solver,
         dt: f64,
@@ -163,7 +166,6 @@ impl Implicit {
             return None;
         }
         let mut euler = self.euler();
-        let couplings = contact.couplings.memory.clone();
         let tried = TRIALS.map(|part| {
             let trial = Trial {
                 from: t,
@@ -174,11 +176,11 @@ impl Implicit {
             solver.seen.clear();
             let tried = tried.map(|accepted| {
                 let (to, u) = (trial.to, &accepted.state.u);
-                let add = |c: &Couplings, out: &mut [f64]| c.add_tried(to, u, out);
-                let coupled = coupling_forces(&contact.couplings, &model.links, u.len(), add);
+                let memory = &frame.contacts.couplings;
+                let add = |out: &mut [f64]| contact.couplings.add_tried(memory, to, u, out);
+                let coupled = coupling_forces(&model.links, u.len(), add);
                 difference(&accepted.contact, &coupled)
             });
-            contact.couplings.memory = couplings.clone();
             let interfaces = contact.interfaces.iter();
             let after: Vec<_> = interfaces.map(tried_tractions).collect();
             tried.map(|contact| (contact, after))
@@ -190,12 +192,16 @@ impl Implicit {
         if dot(&change, &change) > SUDDEN * SUDDEN * dot(&short, &short) {
             return None;
         }
-        for (interface, tried) in contact.interfaces.iter_mut().zip(&after) {
-            adopt_tractions(interface, tried);
+        let contacts = Arc::make_mut(&mut frame.contacts);
+        for (history, tried) in contacts.interfaces.iter_mut().zip(&after) {
+            adopt_tractions(history, tried);
         }
-        let (u, v, at) = (&frame.state.u, &frame.state.v, t + AFTER * dt);
-        let add = |c: &Couplings, out: &mut [f64]| c.add_initial(at, u, v, out);
-        let known = coupling_forces(&contact.couplings, &model.links, u.len(), add);
+        let at = State {
+            t: t + AFTER * dt,
+            ..frame.state.clone()
+        };
+        let add = |out: &mut [f64]| contact.couplings.add_initial(&contacts.couplings, &at, out);
+        let known = coupling_forces(&model.links, at.u.len(), add);
         Some(short.iter().zip(known).map(|(a, b)| a + b).collect())
     }
 }
@@ -249,13 +255,19 @@ fn begin_along_mode(
     let Some(kick) = &mut frame.kick else {
         return;
     };
+    let memory = &frame.contacts.couplings;
     kick.images = [0, 1].map(|k| inertia.mass_times(&kick.shape[k]));
     let (t, n) = (frame.state.t, frame.state.u.len());
-    let rest = vec![0.0; n];
     // Bodies and springs are linear: the trapezoidal rule is exact.
     let forces = |u: &[f64]| -> Vec<f64> {
-        let add = |c: &Couplings, out: &mut [f64]| c.add_initial(t, u, &rest, out);
-        let coupled = coupling_forces(couplings, &model.links, n, add);
+        let at = State {
+            t,
+            u: u.to_vec(),
+            v: vec![0.0; n],
+            ..State::default()
+        };
+        let add = |out: &mut [f64]| couplings.add_initial(memory, &at, out);
+        let coupled = coupling_forces(&model.links, n, add);
         let both = (solver.stiffness.times(u).into_iter()).zip(coupled);
         both.map(|(a, b)| a + b).collect()
     };
@@ -306,16 +318,22 @@ pub(crate) fn initial_contact(
         frames: frames.as_ref(),
     };
     let mut forces = vec![0.0; u.len()];
-    let interfaces = contact.interfaces.iter_mut();
+    let contacts = Arc::make_mut(&mut frame.contacts);
+    let interfaces = contact.interfaces.iter_mut().zip(&mut contacts.interfaces);
     let stored: Result<f64, StepFailure> = interfaces
-        .map(|i| add_initial_forces(i, &stage, &mut forces))
+        .map(|(i, history)| add_initial_forces(i, history, &stage, &mut forces))
         .sum();
     let stored = stored?;
     frame.ledger.initial += stored;
     frame.ledger.contact += stored;
     Spinning::new(&model.frames, u).outward(&vec![0.0; u.len()], &mut forces);
-    contact.couplings.begin_motion(t, &frame.state.v);
-    (contact.couplings).add_initial(t, u, &frame.state.v, &mut forces);
+    let (couplings, memory) = (&contact.couplings, &mut contacts.couplings);
+    couplings.begin_motion(memory, t, &frame.state.v);
+    let at = State {
+        t,
+        ..frame.state.clone()
+    };
+    couplings.add_initial(memory, &at, &mut forces);
     model.links.transfer(&mut forces);
     Ok(forces)
 }
@@ -337,7 +355,8 @@ pub(crate) fn look_at_contact(
         rate: None,
         frames: frames.as_ref(),
     };
-    let interfaces = contact.interfaces.iter_mut();
+    let mut forces = contact.forces(&frame.contacts);
+    let interfaces = forces.interfaces.iter_mut();
     interfaces.for_each(|i| evaluate_laws(i, &stage));
 }
 
@@ -358,14 +377,9 @@ fn forces_are_sought(model: &Model, contact: &Contact, inertia: &Inertia, t: f64
 }
 
 /// Forces of couplings by dof, those at rigid bodies where they move them.
-fn coupling_forces(
-    couplings: &Couplings,
-    links: &Links,
-    count: usize,
-    add: impl Fn(&Couplings, &mut [f64]),
-) -> Vec<f64> {
+fn coupling_forces(links: &Links, count: usize, add: impl Fn(&mut [f64])) -> Vec<f64> {
     let mut out = vec![0.0; count];
-    add(couplings, &mut out);
+    add(&mut out);
     links.transfer(&mut out);
     out
 }
@@ -423,7 +437,9 @@ fn initial_acceleration(
     let free: Vec<bool> = (inertia.bare.iter().zip(&fixed))
         .map(|(b, f)| *b && !f)
         .collect();
+    let memory = &mut Arc::make_mut(&mut frame.contacts).couplings;
     contact.couplings.start_motion(
+        memory,
         &MotionStart {
             t,
             links: &model.links,

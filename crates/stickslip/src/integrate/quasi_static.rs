@@ -36,7 +36,7 @@ impl Integrator for QuasiStatic {
         (contact.couplings).fit(&solver.diagonal, &constraints.fixed, &model.links);
         solver.carry_anchors(model, frame, &constraints, trial);
         if solver.condenser.at_rest().is_some() {
-            return solver.attempt_condensed(model, contact, external, constraints, trial);
+            return solver.attempt_condensed((model, frame), contact, external, constraints, trial);
         }
         let mut at = frame.extrapolated(trial);
         turn_with_supports(model, &frame.state.u, &constraints, &mut at.u);
@@ -47,10 +47,11 @@ impl Integrator for QuasiStatic {
             rate: None,
             frames: None,
             from: &frame.state,
+            contacts: &frame.contacts,
         };
         let converged = solver.solve_sparse(model, contact, task, &mut at)?;
         check_change(model, pairs(&at.u, &frame.state.u))?;
-        check_way(model, contact, [&frame.state, &at], &fixed)?;
+        check_way(model, contact.views(frame), [&frame.state, &at], &fixed)?;
         let external = match model.is_corotational() {
             // Pressures have followed.
             true => frame.external_at(model, trial.to, &at.u),

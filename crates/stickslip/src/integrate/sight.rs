@@ -282,9 +282,9 @@ pub(super) fn in_space(
     (frames, spinning): &Outlook,
     mut accepted: Accepted,
 ) -> Accepted {
+    let seen = accepted.state.u;
+    accepted.state.u = frames.in_space(&model.mesh.points, &seen);
     let state = &mut accepted.state;
-    let seen = std::mem::take(&mut state.u);
-    state.u = frames.in_space(&model.mesh.points, &seen);
     spinning.leave(&mut state.u);
     let motion = [&mut state.v, &mut state.a].into_iter();
     let moving = motion.filter(|x| !x.is_empty());

@@ -104,6 +104,7 @@ fn pass(
         rate: None,
         frames: Some(&sight.all),
         from: &inside.state,
+        contacts: &inside.contacts,
     };
     let converged = solver.solve_sparse(model, contact, task, &mut at)?;
     external.clear();

@@ -103,7 +103,8 @@ impl Bound {
     /// `Tᵀ f`, in place: forces on bound displacements act on those that move them.
     pub fn gather(&self, f: &mut [f64]) {
         for (dof, row) in &self.rows {
-            let force = std::mem::take(&mut f[*dof]);
+            let force = f[*dof];
+            f[*dof] = 0.0;
             if force != 0.0 {
                 row.iter().for_each(|&(other, a)| f[other] += a * force);
             }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::bound::{Bound, Sparse};
 use crate::body::MassKind;
 use crate::body::couplings::{Meets, Row};
-use crate::contact::interface::{LinearPoint, linearise};
+use crate::contact::interface::{InterfaceForce, LinearPoint, linearise};
 use crate::contact::response::Status;
 use crate::error::RunError;
 use crate::linear::BlockCsr;
@@ -377,10 +377,17 @@ fn points(
         rate: None,
         frames: None,
     };
-    let interfaces = contact.interfaces.iter_mut();
-    let lines = interfaces.map(|i| {
+    let interfaces = contact
+        .interfaces
+        .iter_mut()
+        .zip(&frame.contacts.interfaces);
+    let lines = interfaces.map(|(i, history)| {
         let conditions = i.conditions.at_pace(pace);
-        (i.name.clone(), linearise(i, &conditions, &stage))
+        let mut force = InterfaceForce {
+            conditions: &conditions,
+            ..i.force(history)
+        };
+        (force.name.clone(), linearise(&mut force, &stage))
     });
     lines.collect()
 }

@@ -1,5 +1,7 @@
 //! What acts at a time: supports, and loads with the fading forces of supports that let go.
 
+use std::sync::Arc;
+
 use super::contact::Contact;
 use super::definition::{Model, Support};
 use super::frame::Frame;
@@ -11,7 +13,7 @@ impl Frame {
     /// force those that end let go.
     pub(crate) fn begin_step(&mut self, model: &Model, contact: &mut Contact) {
         let step = &model.steps[self.step];
-        contact.change_laws(step, |energy| self.ledger.initial += energy);
+        contact.change_laws(&self.contacts, step, |energy| self.ledger.initial += energy);
         let middle = 0.5 * (step.start + step.end);
         let before = self.step.checked_sub(1).map(|i| {
             let s = &model.steps[i];
@@ -40,7 +42,8 @@ impl Frame {
             Some(row) => released.extend(row.map(|(d, factor)| (d, factor * force))),
         };
         let times = StepTimes { before, middle };
-        (contact.couplings).begin_step(times, &self.state.u, &mut let_go);
+        let memory = &mut Arc::make_mut(&mut self.contacts).couplings;
+        (contact.couplings).begin_step(memory, times, &self.state.u, &mut let_go);
         if step.dynamic.is_some() {
             // In motion what lets go lets go at once.
             self.released.clear();

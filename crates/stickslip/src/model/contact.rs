@@ -1,9 +1,9 @@
-//! What is evaluated in every iteration: interfaces and couplings, with all that they remember.
+//! What is evaluated in every iteration: interfaces and couplings.
 
 use super::definition::Step;
 use super::frame::{ContactMemory, Frame};
-use crate::body::couplings::{Couplings, CouplingsView};
-use crate::contact::interface::{self, ContactView, Interface};
+use crate::body::couplings::{Couplings, CouplingsForce, CouplingsView};
+use crate::contact::interface::{self, ContactView, History, Interface, InterfaceForce};
 use crate::system::{Force, Stage, State};
 
 /// Interfaces and couplings: where bodies touch and what ties their points.
@@ -14,9 +14,15 @@ pub struct Contact {
     pub couplings: Couplings,
 }
 
-impl Contact {
-    /// All of them as forces.
-    pub(crate) fn forces(&mut self) -> Vec<&mut dyn Force> {
+/// Interfaces and couplings as forces that go on from what they know.
+pub(crate) struct ContactForces<'a> {
+    pub interfaces: Vec<InterfaceForce<'a>>,
+    pub couplings: CouplingsForce<'a>,
+}
+
+impl ContactForces<'_> {
+    /// All of them.
+    pub fn all(&mut self) -> Vec<&mut dyn Force> {
         let interfaces = self.interfaces.iter_mut();
         let mut forces: Vec<&mut dyn Force> = interfaces.map(|i| i as &mut dyn Force).collect();
         if !self.couplings.is_empty() {
@@ -24,78 +30,90 @@ impl Contact {
         }
         forces
     }
+}
+
+impl Contact {
+    /// All of them as forces that go on from what they know.
+    pub(crate) fn forces<'a>(&'a mut self, memory: &'a ContactMemory) -> ContactForces<'a> {
+        let interfaces = self.interfaces.iter_mut().zip(&memory.interfaces);
+        ContactForces {
+            interfaces: interfaces.map(|(i, history)| i.force(history)).collect(),
+            couplings: self.couplings.force(&memory.couplings),
+        }
+    }
 
     /// The interfaces after the increment of a frame, as those see them who only look.
     pub fn views<'a>(&'a self, frame: &'a Frame) -> impl ExactSizeIterator<Item = ContactView<'a>> {
-        let interfaces = self.interfaces.iter().enumerate();
-        interfaces.map(|(k, interface)| ContactView {
-            definition: &interface.definition,
-            state: match &frame.contacts {
-                Some(known) => &known.interfaces[k],
-                None => &interface.state,
-            },
-        })
+        self.views_of(&frame.contacts)
+    }
+
+    /// The interfaces as those see them who only look, with what they know.
+    pub fn views_of<'a>(
+        &'a self,
+        memory: &'a ContactMemory,
+    ) -> impl ExactSizeIterator<Item = ContactView<'a>> {
+        let interfaces = self.interfaces.iter().zip(&memory.interfaces);
+        interfaces.map(|(interface, history)| interface.view(history))
     }
 
     /// The couplings after the increment of a frame.
     pub fn coupled<'a>(&'a self, frame: &'a Frame) -> CouplingsView<'a> {
-        let known = frame.contacts.as_ref();
-        CouplingsView {
-            definition: &self.couplings.definition,
-            state: known.map_or(&self.couplings.memory, |known| &known.couplings),
-        }
+        self.couplings.view(&frame.contacts.couplings)
     }
 
-    /// What interfaces and couplings have been through.
-    pub(crate) fn memory(&self) -> ContactMemory {
-        ContactMemory {
-            interfaces: self.interfaces.iter().map(|i| i.state.clone()).collect(),
-            couplings: self.couplings.memory.clone(),
-        }
-    }
-
-    /// Lets them go on from that.
-    pub(crate) fn go_on_from(&mut self, memory: ContactMemory) {
-        for (interface, history) in self.interfaces.iter_mut().zip(memory.interfaces) {
-            interface.state = history;
-        }
-        self.couplings.memory = memory.couplings;
-    }
-
-    /// Tells all of them that an attempt is accepted; what they knew before it.
-    pub(crate) fn commit(&mut self, stage: &Stage) -> ContactMemory {
-        let before = self.interfaces.iter_mut().map(|interface| {
-            let next = interface::commit(interface, stage);
-            std::mem::replace(&mut interface.state, next)
+    /// What they know before anything has happened, at a state.
+    pub(crate) fn begin(&mut self, stage: &Stage) -> ContactMemory {
+        let interfaces = self.interfaces.iter_mut().map(|interface| {
+            let mut history = History::new(interface.points.len());
+            interface::glue(interface, &mut history, stage);
+            history
         });
-        let before = ContactMemory {
-            interfaces: before.collect(),
-            couplings: self.couplings.memory.clone(),
-        };
-        self.couplings.commit(stage);
-        before
+        ContactMemory {
+            interfaces: interfaces.collect(),
+            couplings: self.couplings.begin_analysis(stage.from.t, &stage.from.u),
+        }
+    }
+
+    /// What they know after an attempt that is accepted.
+    pub(crate) fn commit(&mut self, memory: &ContactMemory, stage: &Stage) -> ContactMemory {
+        let interfaces = self.interfaces.iter_mut().zip(&memory.interfaces);
+        let next = interfaces.map(|(i, history)| interface::commit(&mut i.force(history), stage));
+        ContactMemory {
+            interfaces: next.collect(),
+            couplings: self.couplings.commit(&memory.couplings, stage),
+        }
     }
 
     /// Lets all of them act as springs, as explicit increments need it, or as they are; the energy that comes in by it `[J]`, one by one.
-    pub(crate) fn use_springs(&mut self, wanted: bool, mut bring: impl FnMut(f64)) {
-        for interface in &mut self.interfaces {
-            bring(interface::use_springs(interface, wanted));
+    pub(crate) fn use_springs(
+        &mut self,
+        memory: &mut ContactMemory,
+        wanted: bool,
+        mut bring: impl FnMut(f64),
+    ) {
+        for (interface, history) in self.interfaces.iter_mut().zip(&mut memory.interfaces) {
+            bring(interface::use_springs(interface, history, wanted));
         }
-        bring(self.couplings.use_springs(wanted));
+        bring(self.couplings.use_springs(&mut memory.couplings, wanted));
     }
 
     /// Exchanges the laws that change with a step; the energy by which they now store more `[J]`, one by one.
-    pub(crate) fn change_laws(&mut self, step: &Step, mut bring: impl FnMut(f64)) {
+    pub(crate) fn change_laws(
+        &mut self,
+        memory: &ContactMemory,
+        step: &Step,
+        mut bring: impl FnMut(f64),
+    ) {
         for (name, change) in &step.changes {
-            let all = self.interfaces.iter_mut();
-            for interface in all.filter(|i| i.name == *name) {
-                bring(interface::change(interface, change));
+            let all = self.interfaces.iter_mut().zip(&memory.interfaces);
+            for (interface, history) in all.filter(|(i, _)| i.name == *name) {
+                bring(interface::change(interface, history, change));
             }
         }
     }
 
     /// Tells the interfaces that begin to act in the step at hand with which gaps they do.
-    pub(crate) fn begin_acting(&mut self, step: &Step, state: &State) {
+    pub(crate) fn begin_acting(&mut self, memory: &mut ContactMemory, step: &Step, state: &State) {
         let span = [step.start, step.end];
         let mut at = state.clone();
         at.t = step.start + 1e-9 * (step.end - step.start);
@@ -106,8 +124,8 @@ impl Contact {
             rate: None,
             frames: None,
         };
-        for interface in &mut self.interfaces {
-            interface::begin_acting(interface, &stage, span);
+        for (interface, history) in self.interfaces.iter_mut().zip(&mut memory.interfaces) {
+            interface::begin_acting(interface, history, &stage, span);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Where an analysis stands.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::course::Course;
 use super::cycling::Block;
@@ -11,7 +12,7 @@ use crate::contact::interface::History;
 use crate::fatigue::Record;
 use crate::system::State;
 
-/// Where an analysis stands after an accepted increment: all that follows, follows from this, the model, and what interfaces and couplings remember.
+/// Where an analysis stands after an accepted increment: all that follows, follows from this and the model.
 #[derive(Debug, Clone, Default)]
 pub struct Frame {
     /// Index of the step.
@@ -20,8 +21,8 @@ pub struct Frame {
     pub state: State,
     /// Internal minus external forces `[N]`: reactions where supported.
     pub forces: Vec<f64>,
-    /// What interfaces and couplings knew after this increment where those that wait for their report have taken them farther; `None` where they know that.
-    pub contacts: Option<ContactMemory>,
+    /// What interfaces and couplings know after this increment.
+    pub contacts: Arc<ContactMemory>,
     /// What interfaces and couplings add to the residual `[N]`.
     pub contact: Vec<f64>,
     /// External forces `[N]`.

@@ -2,6 +2,7 @@
 
 use super::contact::Contact;
 use super::definition::{Model, Reference};
+use super::frame::ContactMemory;
 use super::scene::Scene;
 use super::unheld::{BEYOND, Mode, NO_PART, Resisted, directions, modes, plain};
 use crate::body::couplings::Row;
@@ -47,8 +48,8 @@ impl FreeBody {
     }
 
     /// Whether it rubs on something at the last accepted state.
-    pub fn rubs(&self, model: &Model, contact: &Contact) -> bool {
-        let mut rubbing = contact.interfaces.iter().filter(|i| look::rubs(i.view()));
+    pub fn rubs(&self, model: &Model, contact: &Contact, memory: &ContactMemory) -> bool {
+        let mut rubbing = contact.views_of(memory).filter(|i| look::rubs(*i));
         rubbing.any(|i| i.nodes.iter().any(|&n| self.has(model, n)))
     }
 }

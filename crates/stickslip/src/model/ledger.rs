@@ -112,7 +112,8 @@ impl EnergyLedger {
         self.kinetic = kinetic;
         let [thermal, held] = flow.thermal;
         self.strain = strain + thermal;
-        self.external_work += thermal - std::mem::replace(&mut self.thermal, thermal);
+        self.external_work += thermal - self.thermal;
+        self.thermal = thermal;
         self.held = held;
         let sum = |part: fn(&Energy) -> f64| interfaces.iter().map(part).sum::<f64>();
         self.contact = sum(|e| e.stored);
@@ -127,7 +128,8 @@ impl EnergyLedger {
             false => passed - self.passed,
         };
         let excess = sum(|e| e.excess);
-        self.numerical -= excess - std::mem::replace(&mut self.exceeded, excess);
+        self.numerical -= excess - self.exceeded;
+        self.exceeded = excess;
         // Who drives has done it: in proportion, where several do.
         let belt = moved - self.moved;
         let all = flow.work.abs() + belt.abs();

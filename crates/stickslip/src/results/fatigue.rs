@@ -10,7 +10,8 @@ use rayon::prelude::*;
 use super::history::Row;
 use crate::assess::view::View;
 use crate::fatigue::{
-    Criterion, Directions, FatigueModel, Found, History, Maximum, Record, Rubbed, Worst, worst,
+    Criterion, Directions, FatigueModel, Found, History, Increment, Maximum, Record, Rubbed, Worst,
+    worst,
 };
 use crate::math::symmetric_eigen;
 use crate::math::{Vec3, add, dot, norm, normalize, sub};
@@ -145,22 +146,10 @@ impl Lot {
     }
 }
 
-/// Takes note of an increment that has been accepted. Where a cycle ends with it, what the criteria say of that.
-pub(crate) fn follow(
-    view: &View,
-    watched: Option<&Watched>,
-    record: &mut Record,
-    trial: Trial,
-) -> Vec<Maximum> {
+/// What there is to note of an increment that has been accepted; `None` in steps without cycles.
+pub(crate) fn increment(view: &View, watched: &Watched, trial: Trial) -> Option<Increment> {
     let step = &view.model.steps[view.step_index()];
-    let (Some(watched), Some(cycles)) = (watched, step.cycles) else {
-        return Vec::new();
-    };
-    let since = [trial.from - step.start, trial.to - step.start];
-    if cycles.begins(since[0]) {
-        record.stress.clear();
-        record.rubbed.clear();
-    }
+    let cycles = step.cycles?;
     let strained = view.strained();
     let mut stresses = Vec::with_capacity(6 * watched.index.len());
     for lot in &watched.lots {
@@ -169,20 +158,20 @@ pub(crate) fn follow(
         let all = body.elastic.nodal_stress(&*strained);
         stresses.extend(lot.places.iter().flat_map(|&i| all[i]));
     }
-    record.stress.push(stresses);
     let interfaces = view.contacts();
-    record
-        .rubbed
-        .push(interfaces.flat_map(|i| look::rubbing(i)).collect());
-    if !cycles.ends(since) {
-        return Vec::new();
-    }
-    let block = cycles.block(since[0], view.frame.block);
-    record.found = judge(view, watched, record);
-    record.stress.clear();
-    record.rubbed.clear();
-    let cycle = block.before + block.stands_for;
-    let found = record.found.iter();
+    Some(Increment {
+        begins: cycles.begins(trial.from - step.start),
+        stress: stresses,
+        rubbed: interfaces.flat_map(|i| look::rubbing(i)).collect(),
+    })
+}
+
+/// What was found in a cycle, place by place and criterion by criterion, where it was most.
+pub(crate) fn maxima(view: &View, found: &[Found], trial: Trial) -> Vec<Maximum> {
+    let step = &view.model.steps[view.step_index()];
+    let block = (step.cycles).map(|c| c.block(trial.from - step.start, view.frame.block));
+    let cycle = block.map_or(0, |block| block.before + block.stands_for);
+    let found = found.iter();
     found.map(|found| maximum(view, found, cycle)).collect()
 }
 
@@ -206,20 +195,25 @@ fn maximum(view: &View, found: &Found, cycle: usize) -> Maximum {
     most
 }
 
-/// What all criteria say of the cycle in the record.
-fn judge(view: &View, watched: &Watched, record: &Record) -> Vec<Found> {
+/// What all criteria say of the cycle that ends with an increment; `None` where none does.
+pub(crate) fn judge(view: &View, watched: &Watched, trial: Trial) -> Option<Vec<Found>> {
+    let step = &view.model.steps[view.step_index()];
+    let since = [trial.from - step.start, trial.to - step.start];
+    if !step.cycles.is_some_and(|cycles| cycles.ends(since)) {
+        return None;
+    }
+    let record = &view.frame.fatigue;
     let directions = match view.model.dofs.dim {
         2 => Directions::Plane,
         _ => Directions::Space,
     };
     let criteria = view.model.output.fatigue.iter().map(FatigueModel::as_dyn);
     let rubbed = rubbed(view, watched, record);
-    criteria
-        .map(|criterion| match criterion.on_surface(&Rubbed::default()) {
-            Some(_) => on_surfaces(criterion, &rubbed),
-            None => on_planes(criterion, watched, record, directions),
-        })
-        .collect()
+    let found = criteria.map(|criterion| match criterion.on_surface(&Rubbed::default()) {
+        Some(_) => on_surfaces(criterion, &rubbed),
+        None => on_planes(criterion, watched, record, directions),
+    });
+    Some(found.collect())
 }
 
 fn on_planes(

@@ -3,13 +3,13 @@
 use crate::contact::look;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
-use crate::model::frame::Frame;
+use crate::model::frame::{ContactMemory, Frame};
 use crate::model::ledger::{EnergyLedger, Flow};
 use crate::results::history::Effort;
 use crate::results::summary::Summary;
 use crate::solve::accepted::Accepted;
 
-/// Makes it the last state, and enters it into the ledger.
+/// Makes it the last state, after which contact knows what the frame has already, and enters it into the ledger.
 pub(crate) fn book(
     model: &Model,
     contact: &Contact,
@@ -22,7 +22,7 @@ pub(crate) fn book(
         *summary.friction_solvers.entry(solver.clone()).or_insert(0) += 1;
     }
     let first = summary.increments == 0;
-    frame.ledger = ledger_after(model, contact, frame, &accepted, first);
+    frame.ledger = ledger_after((model, &*frame), contact, &frame.contacts, &accepted, first);
     frame.coupled = contact.coupled(frame).stored();
     frame.state = accepted.state;
     frame.forces = accepted.forces;
@@ -47,15 +47,15 @@ pub(crate) fn book(
 
 /// The ledger after an increment that the interfaces have committed; `first`: of all.
 pub(crate) fn ledger_after(
-    model: &Model,
+    (model, frame): (&Model, &Frame),
     contact: &Contact,
-    frame: &Frame,
+    after: &ContactMemory,
     accepted: &Accepted,
     first: bool,
 ) -> EnergyLedger {
     let followed = accepted.followed || first && pressed_at_start(model, contact, frame);
     // The energy of couplings counts with that of the bodies.
-    let couplings = contact.coupled(frame);
+    let couplings = contact.couplings.view(&after.couplings);
     let (stored, coupled) = (couplings.stored(), couplings.work());
     let at = &accepted.state;
     let flow = Flow {
@@ -64,7 +64,7 @@ pub(crate) fn ledger_after(
         thermal: model.thermal_energy(at.t, &at.u),
         ..accepted.flow
     };
-    let interfaces: Vec<_> = contact.views(frame).map(|i| look::energy(i)).collect();
+    let interfaces: Vec<_> = contact.views_of(after).map(|i| look::energy(i)).collect();
     let mut ledger = frame.ledger;
     let before = ledger.of_interfaces();
     let energies = [accepted.kinetic, accepted.strain + stored];

@@ -6,8 +6,8 @@
 //! |---|---|---|
 //! | the model and the definitions of interfaces and couplings | `Model`, `Contact` | built again from the problem |
 //! | laws that steps have changed | `Interface::laws` | changed again, step by step |
-//! | step, state, forces, starts of supports, direction, ledger | `Frame` | as it is |
-//! | histories of interfaces; multipliers, targets and holds of couplings | `History`, `CouplingsState` | as they are |
+//! | step, state, forces, starts of supports, direction, ledger; histories of interfaces, multipliers and targets of couplings | `Frame` | as it is |
+//! | holds of couplings | `CouplingsState` | as they are |
 //! | what the solver told interfaces; the end of their last attempt; places of their last search, slopes and nodes of their last evaluation | `Memory` | as they are; facets found again |
 //! | increments that wait for their interiors, or to be reported; an attempt that failed and waits until they are | `Pending`, `Failed` | as they are |
 //! | how far the steps are: increments, attempts, the length that is wished, jumps over cycles | `Steps` | as it is |
@@ -34,7 +34,7 @@ use super::jumps::Jumps;
 use super::queue::{Failed, Pending};
 use crate::assess::doctor::Watch;
 use crate::body::couplings::CouplingsState;
-use crate::contact::interface::{History, Memory};
+use crate::contact::interface::Memory;
 use crate::error::{Error, IoError};
 use crate::integrate::explicit::ExplicitState;
 use crate::model::frame::Frame;
@@ -49,7 +49,6 @@ use crate::time::Pace;
 #[derive(Clone)]
 pub struct Checkpoint {
     pub(super) frame: Frame,
-    pub(super) histories: Vec<History>,
     pub(super) position: Position,
     /// Increments that wait for their interiors.
     pub(super) pending: Vec<Pending>,
@@ -97,7 +96,6 @@ pub(crate) struct Working {
 
 crate::keep!(Checkpoint {
     frame,
-    histories,
     position,
     pending,
     recovered,

@@ -1,12 +1,16 @@
 //! Accepted increments on their way into the results.
 
-use super::queue::Pending;
+use std::collections::VecDeque;
+use std::sync::Arc;
 use std::time::Instant;
+
+use super::queue::Pending;
 
 use super::book::book;
 use super::simulation::{Simulation, view};
 use crate::contact::look;
 use crate::error::Error;
+use crate::fatigue::Maximum;
 use crate::newton::Progress;
 use crate::results::fatigue;
 use crate::results::history;
@@ -14,6 +18,7 @@ use crate::results::loops;
 use crate::results::observer::{Event, Observer};
 use crate::solve::choice::TOGETHER;
 use crate::system::{Cause, State, StepFailure};
+use crate::time::Trial;
 
 impl Simulation {
     /// Goes on from an accepted increment: at once, or with others in one sweep.
@@ -36,16 +41,19 @@ impl Simulation {
         let Some(condensed) = solver.condenser.at_rest() else {
             // In motion that has been done when it was weighed.
             if model.steps[frame.step].dynamic.is_none() {
-                contact.commit(&accepted.stage(&frame.state, *trial));
+                let stage = accepted.stage(&frame.state, *trial);
+                frame.contacts = Arc::new(contact.commit(&frame.contacts, &stage));
                 (frame.course).go_on(trial.to - trial.from, frame.state.u.clone());
             }
             return self.report(pending, observers);
         };
-        let before = contact.commit(&accepted.stage(&condensed.state, *trial));
-        pending.before = self.pending.is_empty().then_some(before);
+        let stage = accepted.stage(&condensed.state, *trial);
+        let after = contact.commit(solver.contacts(frame), &stage);
+        let after = Arc::new(after);
         pending.found = solver.move_ahead(&mut pending.accepted, pending.trial);
         pending.seen = solver.seen.take();
-        pending.after = Some(contact.memory());
+        solver.condenser.go_ahead(Some(Arc::clone(&after)));
+        pending.after = Some(after);
         self.pending.push(pending);
         if last || self.pending.len() >= TOGETHER {
             self.recover_pending();
@@ -65,11 +73,11 @@ impl Simulation {
         if self.pending.is_empty() {
             return;
         }
-        let mut pending = std::mem::take(&mut self.pending);
-        let unknown = pending.iter_mut();
+        let mut queue: VecDeque<Pending> = self.pending.drain(..).collect();
+        let unknown = queue.iter_mut();
         let unknown = unknown.filter_map(|p| Some((p.found.as_ref()?, &mut p.accepted)));
         self.solver.recover(unknown);
-        self.recovered = Some(pending.into());
+        self.recovered = Some(queue);
     }
 
     /// Reports the next of the increments whose interiors are known; `false` if there is none.
@@ -82,23 +90,21 @@ impl Simulation {
         };
         let mut outcome = Ok(());
         if let Some(mut one) = queue.pop_front() {
-            let before = one.before.take().or(self.frame.contacts.take());
-            self.frame.contacts = one.after.take();
             if let Err(failure) = self.complete(&mut one) {
-                self.frame.contacts = None;
-                if let Some(before) = before {
-                    self.contact.go_on_from(before);
-                }
+                self.solver.condenser.go_ahead(None);
                 if failure.cause == Cause::Engine {
                     self.pending.clear();
                     return Err(failure.at(self.frame.state.t).into());
                 }
                 return Err(self.takes_back(&one, failure));
             }
+            if let Some(after) = one.after.take() {
+                self.frame.contacts = after;
+            }
             outcome = self.report(one, observers);
         }
         if queue.is_empty() || outcome.is_err() {
-            self.frame.contacts = None;
+            self.solver.condenser.go_ahead(None);
         } else {
             self.recovered = Some(queue);
         }
@@ -107,7 +113,7 @@ impl Simulation {
 
     /// Completes an increment whose interior has been found.
     fn complete(&mut self, one: &mut Pending) -> Result<(), StepFailure> {
-        let Some(found) = &one.found else {
+        let (Some(found), Some(after)) = (&one.found, &one.after) else {
             return Ok(());
         };
         let Simulation {
@@ -117,7 +123,7 @@ impl Simulation {
             solver,
             ..
         } = self;
-        solver.complete(model, frame, contact, (found, &mut one.accepted))
+        solver.complete((model, frame), contact, after, found, &mut one.accepted)
     }
 
     /// Enters an increment into the ledger and tells the observers.
@@ -149,14 +155,7 @@ impl Simulation {
         }
         let view = view!(self);
         let cycle = loops::follow(&view, &self.shares, &mut self.loops, pending.trial);
-        let mut record = std::mem::take(&mut self.frame.fatigue);
-        let worst = fatigue::follow(
-            &view!(self),
-            self.watched.as_ref(),
-            &mut record,
-            pending.trial,
-        );
-        self.frame.fatigue = record;
+        let worst = self.follow_fatigue(pending.trial);
         if let Some(mut row) = cycle {
             fatigue::add_columns(&mut row, &worst, self.model.dofs.dim);
             self.summary.fatigue = worst;
@@ -172,6 +171,23 @@ impl Simulation {
         Ok(())
     }
 
+    /// Takes note of an increment for the criteria of fatigue. Where a cycle ends with it, what they say of that.
+    fn follow_fatigue(&mut self, trial: Trial) -> Vec<Maximum> {
+        let Some(watched) = &self.watched else {
+            return Vec::new();
+        };
+        let Some(increment) = fatigue::increment(&view!(self), watched, trial) else {
+            return Vec::new();
+        };
+        self.frame.fatigue.enter(increment);
+        let Some(found) = fatigue::judge(&view!(self), watched, trial) else {
+            return Vec::new();
+        };
+        let worst = fatigue::maxima(&view!(self), &found, trial);
+        self.frame.fatigue.close(found);
+        worst
+    }
+
     /// Tells observers that fields are due.
     pub(super) fn put_out(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
         let views = self.contact.views(&self.frame);
@@ -179,13 +195,8 @@ impl Simulation {
         let interfaces = self.contact.interfaces.iter().zip(views);
         let gaps = interfaces.map(|(i, view)| look::excluded_gaps(view, &i.conditions, u, *t));
         let gaps: Vec<_> = gaps.collect();
-        let histories: Vec<_> = match &mut self.frame.contacts {
-            Some(known) => known.interfaces.iter_mut().collect(),
-            None => (self.contact.interfaces.iter_mut())
-                .map(|i| &mut i.state)
-                .collect(),
-        };
-        for (history, gaps) in histories.into_iter().zip(gaps) {
+        let histories = &mut Arc::make_mut(&mut self.frame.contacts).interfaces;
+        for (history, gaps) in histories.iter_mut().zip(gaps) {
             history.note_gaps(&gaps);
         }
         self.tell(observers, || Event::Output)
@@ -226,7 +237,8 @@ impl Simulation {
         if let Some(engine) = &log.engine {
             self.summary.engine = engine.report().into();
         }
-        for note in std::mem::take(&mut log.notes) {
+        let notes: Vec<String> = log.notes.drain(..).collect();
+        for note in notes {
             self.tell(observers, || Event::Note(&note))?;
             // Which method was chosen and why has a place of its own in the summary.
             let reason = &self.summary.method_reason;

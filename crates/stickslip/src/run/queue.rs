@@ -1,5 +1,7 @@
 //! What waits: accepted increments for their interiors, or to be reported, and an attempt that failed until they are.
 
+use std::sync::Arc;
+
 use crate::assess::doctor;
 use crate::model::frame::ContactMemory;
 use crate::newton::Progress;
@@ -23,9 +25,7 @@ pub(crate) struct Pending {
     /// Newton iterations nobody has been told of.
     pub(super) seen: Vec<Progress>,
     /// What interfaces and couplings knew after it; `None` if it is reported at once.
-    pub(super) after: Option<ContactMemory>,
-    /// What they knew before it, where nobody else remembers: in the first of those that wait.
-    pub(super) before: Option<ContactMemory>,
+    pub(super) after: Option<Arc<ContactMemory>>,
     /// What the interior of a condensed increment follows from; `None` where it is known.
     pub(super) found: Option<Candidates>,
 }
@@ -55,7 +55,6 @@ impl Pending {
             row: due.row,
             seen: Vec::new(),
             after: None,
-            before: None,
             found: None,
         }
     }
@@ -82,7 +81,6 @@ crate::keep!(Pending {
     row,
     seen,
     after,
-    before,
     found
 });
 /// An increment that was accepted and taken back, with all that came after it.

@@ -30,10 +30,8 @@ impl Simulation {
 
     /// The same with another working state than that of now.
     pub(super) fn checkpoint_with(&self, working: Working) -> Checkpoint {
-        let histories = self.contact.interfaces.iter().map(|i| i.state.clone());
         Checkpoint {
             frame: self.frame.clone(),
-            histories: histories.collect(),
             position: Position {
                 next: self.steps.next,
                 running: (self.steps.running.as_ref()).map(Increments::standing),
@@ -70,16 +68,13 @@ impl Simulation {
         checkpoint: Checkpoint,
     ) -> Result<Self, Error> {
         let mut simulation = Simulation::with_library(setup, library)?;
-        let Checkpoint {
-            frame,
-            histories,
-            working,
-            ..
-        } = &checkpoint;
-        fits(&simulation, frame, histories, working)?;
+        let Checkpoint { frame, working, .. } = &checkpoint;
+        fits(&simulation, frame, working)?;
         for step in &simulation.model.steps[..=frame.step] {
             // Their energies are in the ledger.
-            simulation.contact.change_laws(step, |_| {});
+            simulation
+                .contact
+                .change_laws(&frame.contacts, step, |_| {});
         }
         simulation.go_back_to(checkpoint)?;
         simulation.started = Instant::now();
@@ -92,7 +87,6 @@ impl Simulation {
         let simulation = self;
         let Checkpoint {
             frame,
-            histories,
             position,
             pending,
             recovered,
@@ -107,9 +101,6 @@ impl Simulation {
             solver,
             ..
         } = simulation;
-        for (interface, history) in contact.interfaces.iter_mut().zip(histories) {
-            interface.state = history;
-        }
         // Of increments that wait the frame knows nothing yet.
         let waiting = pending.last().is_some_and(|p| p.found.is_some());
         let condensed = working.solver.condensed_displacements();
@@ -117,12 +108,17 @@ impl Simulation {
             Some(u) if waiting => u.to_vec(),
             _ => frame.state.u.clone(),
         };
-        for (interface, memory) in contact.interfaces.iter_mut().zip(working.interfaces) {
-            remember(interface, memory, &u);
+        let ahead = recovered.as_ref().and_then(|r| r.back());
+        let ahead = pending.last().or(ahead).and_then(|p| p.after.clone());
+        let contacts = ahead.as_ref().unwrap_or(&frame.contacts);
+        let histories = contacts.interfaces.iter().zip(working.interfaces);
+        for (interface, (history, memory)) in contact.interfaces.iter_mut().zip(histories) {
+            remember(interface, history, memory, &u);
         }
         contact.couplings.go_on_from(working.couplings);
         let t = frame.state.t;
         (solver.go_on_from(working.solver, model, &frame, contact)).map_err(|e| e.at(t))?;
+        solver.condenser.go_ahead(ahead);
         simulation.integration = integration(&simulation.model, frame.step, working.explicit);
         simulation.steps = Steps {
             begun: true,
@@ -156,20 +152,15 @@ fn integration(model: &Model, step: usize, explicit: Option<ExplicitState>) -> I
 }
 
 /// Whether a checkpoint is one of this model, by all lengths that there are.
-fn fits(
-    simulation: &Simulation,
-    frame: &Frame,
-    histories: &[History],
-    working: &Working,
-) -> Result<(), Error> {
+fn fits(simulation: &Simulation, frame: &Frame, working: &Working) -> Result<(), Error> {
     let n = simulation.model.dofs.count();
     let interfaces = simulation.contact.interfaces.len();
     let fits = frame.state.u.len() == n
         && frame.forces.len() == n
         && frame.step < simulation.model.steps.len()
-        && histories.len() == interfaces
+        && frame.contacts.interfaces.len() == interfaces
         && working.interfaces.len() == interfaces
-        && fits_contact(&simulation.contact, histories);
+        && fits_contact(&simulation.contact, &frame.contacts.interfaces);
     match fits {
         true => Ok(()),
         false => Err(Error::Run(RunError {

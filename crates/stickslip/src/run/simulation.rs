@@ -8,7 +8,7 @@ use super::checkpoint::Working;
 use super::position::Steps;
 use super::queue::{Pending, TakenBack};
 use super::trying::Trying;
-use crate::assess::diagnosis::{CheckReport, start_gaps};
+use crate::assess::diagnosis::{CheckReport, beginning, soon, start_gaps};
 use crate::assess::doctor::{self, DoctorCause, Finding, Watch};
 use crate::assess::quality;
 use crate::assess::view::View;
@@ -269,20 +269,24 @@ fn start(model: &Model, contact: &mut Contact, solver: &Solver) -> Frame {
     }
     model.links.impose(&mut u);
     let t = model.steps.first().map_or(0.0, |s| s.start);
+    let state = State {
+        t,
+        u,
+        ..State::default()
+    };
+    let contacts = contact.begin(&beginning(&state, &soon(model, &state)));
+    let coupled = contact.couplings.view(&contacts.couplings).stored();
+    let strain = solver.strain_energy(model, &state.u) + coupled;
     let mut frame = Frame {
+        state,
+        contacts: Arc::new(contacts),
+        coupled,
         forces: vec![0.0; n],
         contact: vec![0.0; n],
         load: vec![0.0; n],
         ..Frame::default()
     };
-    let strain = solver.strain_energy(model, &u) + contact.couplings.begin_analysis(t, &u);
-    frame.coupled = contact.couplings.view().stored();
     frame.ledger.initial = strain;
     frame.ledger.strain = strain;
-    frame.state = State {
-        t,
-        u,
-        ..State::default()
-    };
     frame
 }

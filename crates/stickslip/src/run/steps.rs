@@ -203,7 +203,8 @@ impl Simulation {
         frame.step = step;
         frame.block = Block::default();
         frame.begin_step(model, contact);
-        contact.begin_acting(&model.steps[step], &frame.state);
+        let contacts = Arc::make_mut(&mut frame.contacts);
+        contact.begin_acting(contacts, &model.steps[step], &frame.state);
         if model.steps[step].modal.is_some() {
             return Ok(());
         }
@@ -213,7 +214,8 @@ impl Simulation {
         solver.condenser.drop_at_rest();
         // What keeps loose bodies in place at rest has no part in motion, where their masses do.
         solver.floating.forget_all();
-        contact.use_springs(false, |energy| frame.ledger.initial += energy);
+        let contacts = Arc::make_mut(&mut frame.contacts);
+        contact.use_springs(contacts, false, |energy| frame.ledger.initial += energy);
         self.integration = match dynamic.method {
             Method::Implicit(alphas) => {
                 let scheme = (dynamic, alphas);
@@ -253,7 +255,8 @@ impl Simulation {
         for interface in &mut contact.interfaces {
             set_masses(interface, &[]);
         }
-        contact.use_springs(false, |energy| frame.ledger.initial += energy);
+        let contacts = Arc::make_mut(&mut frame.contacts);
+        contact.use_springs(contacts, false, |energy| frame.ledger.initial += energy);
         self.integration = Integration::QuasiStatic(QuasiStatic);
         solver.find_floating_bodies(model, frame, contact);
         if let Some((finding, error)) = view!(self).refuse_unheld() {
@@ -452,7 +455,9 @@ impl Simulation {
     ) -> Result<bool, Error> {
         let followed = &mut self.summary.followed;
         let anchored = self.solver.floating.is_anchored();
-        let (floating, known) = (&mut self.solver.floating, (&self.model, &self.contact));
+        let contacts = Arc::clone(self.solver.contacts(&self.frame));
+        let floating = &mut self.solver.floating;
+        let known = (&self.model, &self.contact, &*contacts);
         if !floating.wants_restart(known, followed) {
             if anchored {
                 (self.solver).note_released(&self.model, &self.frame, accepted);

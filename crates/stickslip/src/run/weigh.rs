@@ -1,10 +1,13 @@
 //! Increments in motion are weighed before they are accepted: where the balance of energies opens too far over one, it is made smaller.
 
+use std::sync::Arc;
+
 use super::book::ledger_after;
 use super::position::Increments;
 use super::simulation::Simulation;
 use crate::assess::quality::still_energy;
 use crate::contact::look;
+use crate::model::frame::ContactMemory;
 use crate::model::limits::GateMode;
 use crate::solve::accepted::Accepted;
 use crate::system::{Cause, StepFailure};
@@ -43,15 +46,14 @@ impl Simulation {
             return Ok(accepted);
         }
         let stage = accepted.stage(&self.frame.state, trial);
-        let before = self.contact.commit(&stage);
+        let after = (self.contact).commit(&self.frame.contacts, &stage);
         if self.is_weighed() {
-            let [opened, may] = self.opened(trial, &accepted);
+            let [opened, may] = self.opened(trial, &accepted, &after);
             let length = trial.to - trial.from;
-            let resolved = opened <= may || self.resolves(trial);
+            let resolved = opened <= may || self.resolves(trial, &after);
             let smallest = 0.5 * length < self.step().increments.smallest;
             let was_vain = running.vain;
             if running.is_to_halve(length, [opened, may], resolved, smallest) {
-                self.contact.go_on_from(before);
                 let message = format!(
                     "the balance of energies opens by {opened:.3e} over the increment, more than its share of what the limit leaves"
                 );
@@ -66,6 +68,7 @@ impl Simulation {
             }
         }
         running.tight = accepted.hard;
+        self.frame.contacts = Arc::new(after);
         self.integration.as_dyn_mut().accept();
         Ok(accepted)
     }
@@ -76,12 +79,12 @@ impl Simulation {
     }
 
     /// Whether an increment resolves how masses swing on the springs of contact, as they are pressed now.
-    fn resolves(&self, trial: Trial) -> bool {
+    fn resolves(&self, trial: Trial, after: &ContactMemory) -> bool {
         let links = &self.model.links;
         let inverse = self.inverse_masses();
-        let interfaces = self.contact.interfaces.iter();
+        let interfaces = self.contact.interfaces.iter().zip(&after.interfaces);
         let squared: f64 = interfaces
-            .map(|i| look::pressed_frequency(i, &inverse, links))
+            .map(|(i, history)| look::pressed_frequency(i, history, &inverse, links))
             .sum();
         squared.sqrt() * (trial.to - trial.from) <= RESOLVED
     }
@@ -106,10 +109,10 @@ impl Simulation {
     }
 
     /// By how much the balance of energies opens over a committed increment, and by how much it may `[J]`.
-    fn opened(&self, trial: Trial, accepted: &Accepted) -> [f64; 2] {
+    fn opened(&self, trial: Trial, accepted: &Accepted, after: &ContactMemory) -> [f64; 2] {
         let (model, frame) = (&self.model, &self.frame);
         let first = self.summary.increments == 0;
-        let ledger = ledger_after(model, &self.contact, frame, accepted, first);
+        let ledger = ledger_after((model, frame), &self.contact, after, accepted, first);
         let mut quality = self.summary.energy_quality;
         quality.note(&ledger);
         let limit = model.quality.energy.unwrap_or(model.energy_limit);

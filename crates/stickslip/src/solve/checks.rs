@@ -1,5 +1,6 @@
 //! Solutions that are refused although Newton's method has found them.
 
+use crate::contact::interface::ContactView;
 use crate::contact::interface::spreads;
 use crate::contact::look;
 use crate::math::larger;
@@ -86,18 +87,17 @@ pub(crate) fn check_change(
 }
 
 /// Refuses a solution that bodies which turn on axles that contact alone holds can have reached through each other only.
-pub(crate) fn check_way(
+pub(crate) fn check_way<'a>(
     model: &Model,
-    contact: &Contact,
+    contacts: impl Iterator<Item = ContactView<'a>>,
     ends: [&State; 2],
     fixed: &[bool],
 ) -> Result<(), StepFailure> {
     if !model.frames.any_unheld(fixed) {
         return Ok(());
     }
-    for interface in &contact.interfaces {
-        if let Some(deep) =
-            look::passes_through(interface.view(), ends.map(|s| &*s.u), ends.map(|s| s.t))
+    for interface in contacts {
+        if let Some(deep) = look::passes_through(interface, ends.map(|s| &*s.u), ends.map(|s| s.t))
         {
             let message = format!(
                 "interface `{}`: bodies overlap by {deep:.3e} on the way to what was found: an axle that nothing but contact holds has turned through what it touches",

@@ -65,12 +65,15 @@ pub(crate) fn close(
         of: vec![count; count + 1],
         free,
     };
-    for f in free.iter().filter(|f| !f.rubs(model, contact)) {
+    for f in free
+        .iter()
+        .filter(|f| !f.rubs(model, contact, &frame.contacts))
+    {
         f.bodies.iter().for_each(|&b| clusters.of[b] = f.bodies[0]);
     }
     let pushes = pushes(model, external);
     let mut pulls = vec![0.0; external.len()];
-    let drawn = contact.couplings.view().pulls(trial.to);
+    let drawn = contact.coupled(frame).pulls(trial.to);
     for (dof, force) in drawn.into_values().flatten() {
         pulls[dof] += force;
     }
@@ -82,9 +85,10 @@ pub(crate) fn close(
             break;
         }
         let (mut way, mut touching) = (f64::INFINITY, Vec::new());
-        for interface in &mut contact.interfaces {
+        let histories = &frame.contacts.interfaces;
+        for (interface, history) in contact.interfaces.iter_mut().zip(histories) {
             if interface.schedule.active(trial.to) {
-                let meeting = meeting(interface, &u, &w, trial.from);
+                let meeting = meeting(&mut interface.force(history), &u, &w, trial.from);
                 way = way.min(meeting.way);
                 touching.extend(meeting.touching);
             }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use crate::model::course::Course;
+use crate::model::frame::ContactMemory;
 use crate::newton::condensed::{Amplitudes, Condensation, Library, LoadPatterns, ReducedSystem};
 use crate::system::{State, StepFailure};
 
@@ -48,6 +49,8 @@ pub(crate) struct Condensed {
     pub(super) carried: Vec<f64>,
     /// Displacements of the candidates over the last increments, and the forces behind them.
     pub(super) course: Course,
+    /// What interfaces and couplings know after it where it waits to be reported; `None` where they know what the frame has.
+    pub(super) ahead: Option<Arc<ContactMemory>>,
     /// What the last attempt found.
     pub(super) found: Option<(Amplitudes, Vec<f64>)>,
 }
@@ -110,6 +113,13 @@ impl Condenser {
     /// Nothing is condensed in motion until it is made anew.
     pub fn drop_in_motion(&mut self) {
         self.moving.clear();
+    }
+
+    /// Interfaces and couplings know this after increments that wait to be reported, or what the frame has where none does.
+    pub fn go_ahead(&mut self, ahead: Option<Arc<ContactMemory>>) {
+        if let Some(condensed) = &mut self.at_rest {
+            condensed.ahead = ahead;
+        }
     }
 
     /// It is later, and all that acts is as it was.

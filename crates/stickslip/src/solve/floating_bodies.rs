@@ -7,6 +7,7 @@ use crate::math::{add_scaled, norm};
 use crate::model::contact::Contact;
 use crate::model::definition::{Model, Step};
 use crate::model::drivers::named;
+use crate::model::frame::ContactMemory;
 use crate::model::free_bodies::FreeBody;
 use crate::model::scene::Scene;
 use crate::system::{Cause, Culprit, Force, StepFailure};
@@ -213,10 +214,13 @@ impl Floating {
     /// to be made before.
     pub fn wants_restart(
         &mut self,
-        (model, contact): (&Model, &Contact),
+        (model, contact, contacts): (&Model, &Contact, &ContactMemory),
         followed: &mut usize,
     ) -> bool {
-        let rubs = self.bodies().iter().any(|free| free.rubs(model, contact));
+        let rubs = self
+            .bodies()
+            .iter()
+            .any(|free| free.rubs(model, contact, contacts));
         let floating = self;
         let Some(anchors) = &mut floating.anchors else {
             floating.moved = 0;

@@ -89,10 +89,11 @@ impl Solver {
         if bodies.is_empty() || floating.anchors.is_some() || floating.vain || floating.moved > 0 {
             return false;
         }
+        let contacts = self.contacts(frame);
         let untouched = |free: &FreeBody| {
             // A tie is no contact that holds: it joins loose bodies to each other.
-            let mut all = contact.interfaces.iter().filter(|i| !i.laws.tied);
-            all.all(|i| !look::touched(i.view()) || !i.nodes.iter().any(|&n| free.has(model, n)))
+            let mut all = contact.views_of(contacts).filter(|i| !i.laws.tied);
+            all.all(|i| !look::touched(i) || !i.nodes.iter().any(|&n| free.has(model, n)))
         };
         bodies.iter().any(untouched)
     }
@@ -186,7 +187,7 @@ impl Solver {
         let external = frame.loads(model, trial.to);
         let pushes = pushes(model, &external).into_iter();
         // What draws the parts of a bolt together is no load on the whole of it.
-        let tension = contact.couplings.view().tension(trial.to);
+        let tension = contact.coupled(frame).tension(trial.to);
         let mut force = pushes.map(|p| norm(p.force)).fold(tension, f64::max);
         let before = self.floating.pressed(model, &frame.contact).into_iter();
         let largest = before.chain(self.floating.pushed.iter().copied());
@@ -251,11 +252,12 @@ impl Solver {
             frames: None,
         };
         let (mut gaps, mut size) = (0.0, 0.0_f64);
-        let interfaces = contact.interfaces.iter_mut();
-        for interface in interfaces.filter(|i| i.schedule.active(trial.to)) {
+        let histories = &self.contacts(frame).interfaces;
+        let interfaces = contact.interfaces.iter_mut().zip(histories);
+        for (interface, history) in interfaces.filter(|(i, _)| i.schedule.active(trial.to)) {
             let own = match pending {
-                true => look::initial_gaps(interface.view()),
-                false => gaps_at(interface, &stage),
+                true => look::initial_gaps(interface.view(history)),
+                false => gaps_at(&mut interface.force(history), &stage),
             };
             let own = own.into_iter().filter(|gap| gap.is_finite());
             gaps += own.map(f64::abs).fold(0.0, f64::max);

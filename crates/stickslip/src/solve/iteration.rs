@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::work::Seen;
 use crate::model::definition::Model;
+use crate::model::frame::ContactMemory;
 use crate::newton::{Bulk, Converged, Newton, Origin, System};
 use crate::system::{BodyFrames, Constraints, Force, Rate, State, StepFailure};
 
@@ -27,6 +28,8 @@ pub(crate) struct Task<'a> {
     pub frames: Option<&'a Arc<BodyFrames>>,
     /// The state at its start.
     pub from: &'a State,
+    /// What interfaces and couplings know there.
+    pub contacts: &'a ContactMemory,
 }
 
 /// Newton's method on one system: where all increments are solved.

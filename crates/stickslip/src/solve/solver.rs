@@ -13,6 +13,7 @@ use super::work::Seen;
 use crate::linear::{BlockCsr, Digest, Engine, Matrix};
 use crate::model::contact::Contact;
 use crate::model::definition::{Model, Solution};
+use crate::model::frame::{ContactMemory, Frame};
 use crate::newton::condensed::{Identity, Library};
 use crate::newton::{Converged, Curved, CurvedBulk, Factors, Newton, SparseBulk};
 use crate::system::{State, StepFailure};
@@ -92,6 +93,12 @@ impl Solver {
         }
     }
 
+    /// What interfaces and couplings know after the last accepted increment, where it has not been reported, too.
+    pub fn contacts<'a>(&'a self, frame: &'a Frame) -> &'a Arc<ContactMemory> {
+        let ahead = self.condenser.at_rest().and_then(|c| c.ahead.as_ref());
+        ahead.unwrap_or(&frame.contacts)
+    }
+
     /// Nothing moves any more: what was made of the masses goes.
     pub fn come_to_rest(&mut self) {
         if let Some(inertia) = self.inertia.take() {
@@ -128,9 +135,10 @@ impl Solver {
                 ((matrix, diagonal), key, none, Some(origin))
             }
         };
+        let mut forces = contact.forces(task.contacts);
         let forces = match origin {
-            None => self.floating.with(contact.forces()),
-            Some(_) => contact.forces(),
+            None => self.floating.with(forces.all()),
+            Some(_) => forces.all(),
         };
         if let (Some(linear), None) = (&self.linear, &origin) {
             let pressed = Pressed::new(Cells { model, linear }, at.t, &task.from.u);

@@ -236,6 +236,7 @@ impl Solver {
             state: at_rest.state,
             carried: at_rest.carried,
             course: at_rest.course,
+            ahead: None,
             found: None,
         })
     }

@@ -58,7 +58,7 @@ impl Seen {
 
     /// What observers have not been told of.
     pub fn take(&mut self) -> Vec<Progress> {
-        std::mem::take(&mut self.iterations)
+        self.iterations.drain(..).collect()
     }
 
     /// Forgets what observers have not been told of.

@@ -2,7 +2,7 @@
 
 use crate::support;
 use stickslip::contact::enforcement::EnforcementModel;
-use stickslip::contact::interface::Interface;
+use stickslip::contact::interface::{History, Interface, InterfaceForce, commit};
 use stickslip::contact::kinematics::KinematicsModel;
 use stickslip::contact::law::slip::SlipModel;
 use stickslip::contact::look;
@@ -84,7 +84,8 @@ fn state(interface: &Interface, t: f64, depth: f64, shift: [f64; 2]) -> State {
 }
 
 /// One attempt: two evaluations with an increment and a multiplier update in between, as the solver makes them.
-fn attempt(interface: &mut Interface, from: &State, at: &State) -> [Bits; 3] {
+fn attempt(interface: &mut Interface, history: &History, from: &State, at: &State) -> [Bits; 3] {
+    let interface = &mut interface.force(history);
     let stage = Stage {
         from,
         at,
@@ -93,7 +94,7 @@ fn attempt(interface: &mut Interface, from: &State, at: &State) -> [Bits; 3] {
         frames: None,
     };
     let mut out = Assembler::new(interface.dofs.count());
-    let mut evaluate = |interface: &mut Interface, tangent: bool| {
+    let mut evaluate = |interface: &mut InterfaceForce, tangent: bool| {
         out.reset(tangent);
         interface.prepare(&stage);
         interface.assemble(&stage, &mut out).expect("forces");
@@ -145,9 +146,10 @@ fn an_attempt_repeated_gives_the_same_bits() {
             .into_iter()
             .next()
             .expect("one interface");
+        let mut history = History::new(interface.points.len());
         let start = state(&interface, 0.0, 0.0, [0.0; 2]);
         let pressed = state(&interface, 1.0, 1e-6, [2e-7, 1e-7]);
-        attempt(&mut interface, &start, &pressed);
+        attempt(&mut interface, &history, &start, &pressed);
         let stage = Stage {
             from: &start,
             at: &pressed,
@@ -155,11 +157,11 @@ fn an_attempt_repeated_gives_the_same_bits() {
             rate: None,
             frames: None,
         };
-        interface.commit(&stage);
-        let energy = look::energy(interface.view());
+        history = commit(&mut interface.force(&history), &stage);
+        let energy = look::energy(interface.view(&history));
 
         let slid = state(&interface, 2.0, 1.5e-6, [3e-3, -2e-3]);
-        let first = attempt(&mut interface, &pressed, &slid);
+        let first = attempt(&mut interface, &history, &pressed, &slid);
         assert!(
             first[0].blocks.len() > 10 && first[0].residual.iter().any(|&r| r != 0),
             "{what}: no contact"
@@ -167,16 +169,20 @@ fn an_attempt_repeated_gives_the_same_bits() {
         // Far away, onto other facets, off the surface altogether, and back.
         for (depth, shift) in [(4e-6, [9e-3, 8e-3]), (-1e-3, [0.0; 2]), (2e-6, [0.1, 0.1])] {
             let wild = state(&interface, 1.7, depth, shift);
-            attempt(&mut interface, &pressed, &wild);
+            attempt(&mut interface, &history, &pressed, &wild);
         }
-        let again = attempt(&mut interface, &pressed, &slid);
+        let again = attempt(&mut interface, &history, &pressed, &slid);
         assert_eq!(first, again, "{what}: an attempt left a trace");
         assert_eq!(
-            look::energy(interface.view()).dissipated,
+            look::energy(interface.view(&history)).dissipated,
             energy.dissipated,
             "{what}"
         );
-        assert_eq!(look::energy(interface.view()).work, energy.work, "{what}");
+        assert_eq!(
+            look::energy(interface.view(&history)).work,
+            energy.work,
+            "{what}"
+        );
 
         let stage = Stage {
             from: &pressed,
@@ -185,12 +191,12 @@ fn an_attempt_repeated_gives_the_same_bits() {
             rate: None,
             frames: None,
         };
-        interface.commit(&stage);
+        history = commit(&mut interface.force(&history), &stage);
         assert!(
-            look::energy(interface.view()).dissipated > energy.dissipated,
+            look::energy(interface.view(&history)).dissipated > energy.dissipated,
             "{what}"
         );
-        let after = attempt(&mut interface, &pressed, &slid);
+        let after = attempt(&mut interface, &history, &pressed, &slid);
         if joint.slip == SlipModel::samples()[0] {
             assert_ne!(first, after, "{what}: a commit changed nothing");
         }

@@ -80,14 +80,13 @@ pub fn lanczos(pencil: &Pencil, wanted: Wanted) -> RealModes {
     let mut vain = 0;
     for _ in 0..MOST_PASSES {
         while start.len() < BLOCK {
-            let mut fresh: Vec<f64> = (0..pencil.size).map(|_| noise(&mut seed)).collect();
+            let fresh: Vec<f64> = (0..pencil.size).map(|_| noise(&mut seed)).collect();
             // What the mass does not see must not be in it.
             let mut image = vec![0.0; pencil.size];
             (pencil.mass)(&fresh, &mut image);
             (pencil.solve)(&mut image, 1);
             out.solves += 1;
-            std::mem::swap(&mut fresh, &mut image);
-            start.push(fresh);
+            start.push(image);
         }
         let edge = edge(&found, &wanted, pencil.shift);
         let before = found.len();

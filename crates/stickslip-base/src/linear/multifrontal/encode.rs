@@ -193,9 +193,10 @@ fn check(mut fronts: Fronts, row_counts: &[u32]) -> Option<Fronts> {
             None => &mut fronts.interior[position],
             Some(at) => fronts.root.get_mut(at)?,
         };
-        if std::mem::replace(slot, (origin + local) as u32) != NONE {
+        if *slot != NONE {
             return None;
         }
+        *slot = (origin + local) as u32;
     }
     let complete = !fronts.interior.contains(&NONE) && fronts.root.is_sorted_by(|a, b| a < b);
     let ordered = fronts.tree.first.is_sorted_by(|a, b| a < b);

@@ -201,24 +201,27 @@ fn rows_of_groups<I: Iterator<Item = u32>>(
     for (at, group) in groups.iter().enumerate() {
         let start = end;
         end += group.len() as u32;
-        let mut own = std::mem::take(&mut rows[at]);
-        own.retain(|&place| {
-            place >= end && std::mem::replace(&mut seen_by[place as usize], at as u32) != at as u32
-        });
+        let (before, above) = rows.split_at_mut(at + 1);
+        let own = &mut before[at];
+        let mut is_new = |place: u32| {
+            let seen = &mut seen_by[place as usize];
+            let new = *seen != at as u32;
+            *seen = at as u32;
+            new
+        };
+        own.retain(|&place| place >= end && is_new(place));
         for place in start..end {
             for other in coupled(place) {
-                if other >= end
-                    && std::mem::replace(&mut seen_by[other as usize], at as u32) != at as u32
-                {
+                if other >= end && is_new(other) {
                     own.push(other);
                 }
             }
         }
         own.sort_unstable();
-        if let Some(above) = rows.get_mut(parents[at] as usize) {
-            above.extend_from_slice(&own);
+        // A parent comes after its children.
+        if parents[at] != NONE {
+            above[parents[at] as usize - (at + 1)].extend_from_slice(own);
         }
-        rows[at] = own;
     }
     rows
 }

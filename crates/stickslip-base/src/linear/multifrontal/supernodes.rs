@@ -86,7 +86,7 @@ fn fundamental(parents: &[u32], counts: &[usize]) -> Vec<Group> {
 
 /// Joins to a group those of its children that bring few zeros, the ones with most rows first.
 fn join_children(groups: &mut [Group], gone: &mut [bool], at: usize, block: usize) {
-    let mut children = std::mem::take(&mut groups[at].children);
+    let mut children: Vec<u32> = groups[at].children.drain(..).collect();
     let mut tried = children.clone();
     tried.sort_by_key(|&child| std::cmp::Reverse(groups[child as usize].rows));
     let mut before: Vec<u32> = Vec::new();
@@ -105,7 +105,7 @@ fn join_children(groups: &mut [Group], gone: &mut [bool], at: usize, block: usiz
         let child = child as usize;
         gone[child] = true;
         before.append(&mut groups[child].steps);
-        let grandchildren = std::mem::take(&mut groups[child].children);
+        let grandchildren: Vec<u32> = groups[child].children.drain(..).collect();
         for &grandchild in &grandchildren {
             groups[grandchild as usize].parent = at as u32;
         }
@@ -120,13 +120,9 @@ fn join_children(groups: &mut [Group], gone: &mut [bool], at: usize, block: usiz
 }
 
 /// The groups that are left, in postorder.
-fn postordered(mut groups: Vec<Group>, gone: &[bool]) -> Supernodes {
-    let mut done = Supernodes {
-        groups: Vec::new(),
-        parents: Vec::new(),
-    };
+fn postordered(groups: Vec<Group>, gone: &[bool]) -> Supernodes {
     let mut number = vec![NONE; groups.len()];
-    let mut order = Vec::new();
+    let mut count = 0;
     let mut stack = Vec::new();
     for root in (0..groups.len()).filter(|&at| !gone[at] && groups[at].parent == NONE) {
         stack.push((root, 0));
@@ -135,16 +131,20 @@ fn postordered(mut groups: Vec<Group>, gone: &[bool]) -> Supernodes {
                 stack.push((at, next + 1));
                 stack.push((child as usize, 0));
             } else {
-                number[at] = order.len() as u32;
-                order.push(at);
+                number[at] = count;
+                count += 1;
             }
         }
     }
-    for at in order {
-        done.groups.push(std::mem::take(&mut groups[at].steps));
-        let parent = groups[at].parent;
-        done.parents
-            .push(number.get(parent as usize).copied().unwrap_or(NONE));
+    let mut left: Vec<(u32, Group)> = number.iter().copied().zip(groups).collect();
+    left.retain(|(place, _)| *place != NONE);
+    left.sort_unstable_by_key(|(place, _)| *place);
+    let parent = |group: &Group| number.get(group.parent as usize).copied();
+    Supernodes {
+        parents: left
+            .iter()
+            .map(|(_, group)| parent(group).unwrap_or(NONE))
+            .collect(),
+        groups: left.into_iter().map(|(_, group)| group.steps).collect(),
     }
-    done
 }

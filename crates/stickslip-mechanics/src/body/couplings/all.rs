@@ -5,6 +5,7 @@ use super::drawn::draw;
 use super::elimination::Elimination;
 use super::memory::CouplingsMemory;
 use super::view::CouplingsView;
+use crate::system::State;
 
 /// All couplings of a model, as one force.
 ///
@@ -20,11 +21,16 @@ pub struct Couplings {
     pub(super) hold: Vec<Hold>,
     pub(super) iterate: Iterate,
     pub(super) elimination: Elimination,
-    /// What accepted increments have left.
-    pub memory: CouplingsMemory,
     pub(super) explicit: bool,
     /// Forces with which equations hold over an explicit increment, by row; empty before one.
     pub(super) exact: Vec<ExactForce>,
+}
+
+/// Couplings as a force, which goes on from what accepted increments have left.
+#[derive(Debug)]
+pub struct CouplingsForce<'a> {
+    pub(super) couplings: &'a mut Couplings,
+    pub(super) memory: &'a CouplingsMemory,
 }
 
 /// The force along an equation that an explicit increment holds exactly `[N]`.
@@ -58,6 +64,13 @@ pub(super) struct Iterate {
     pub off_now: Vec<f64>,
 }
 
+/// What acts along the rows beside springs: multipliers, and dashpots at these velocities.
+#[derive(Clone, Copy)]
+struct Forces<'a> {
+    multipliers: &'a [f64],
+    velocities: Option<&'a [f64]>,
+}
+
 impl std::ops::Deref for Couplings {
     type Target = CouplingsDefinition;
 
@@ -70,30 +83,14 @@ impl Couplings {
     /// Couplings of the points of a space of this dimension.
     pub fn new(all: Vec<Coupling>, dim: usize) -> Self {
         let definition = CouplingsDefinition::new(all, dim);
-        let targets = definition.rows().map(|(_, coupling, _)| {
-            let own = match &coupling.tie {
-                Tie::Dashpot { coefficient } => *coefficient,
-                tie => tie.stiffness(),
-            };
-            let first = coupling.schedule.pieces.first();
-            own * first.map_or(1.0, |p| coupling.schedule.at(p.start))
-        });
-        let targets: Vec<f64> = targets.collect();
-        let none = vec![0.0; targets.len()];
+        let none = vec![0.0; definition.rows().count()];
         Couplings {
-            hold: vec![Hold::default(); targets.len()],
+            hold: vec![Hold::default(); none.len()],
             iterate: Iterate {
                 last: none.clone(),
                 off: none.clone(),
                 now: none.clone(),
-                off_now: none.clone(),
-            },
-            memory: CouplingsMemory {
-                multipliers: none.clone(),
-                forces: none.clone(),
-                start: none,
-                targets,
-                ..CouplingsMemory::default()
+                off_now: none,
             },
             definition,
             ..Couplings::default()
@@ -101,26 +98,32 @@ impl Couplings {
     }
 
     /// They as those see them who only look.
-    pub fn view(&self) -> CouplingsView<'_> {
+    pub fn view<'a>(&'a self, memory: &'a CouplingsMemory) -> CouplingsView<'a> {
         CouplingsView {
             definition: &self.definition,
-            state: &self.memory,
+            state: memory,
         }
     }
 
-    /// What a row does at time `t`.
-    pub(super) fn act(&self, i: usize, coupling: &Coupling, t: f64) -> Act {
-        self.view().act(i, coupling, t)
+    /// They as a force that goes on from there.
+    pub fn force<'a>(&'a mut self, memory: &'a CouplingsMemory) -> CouplingsForce<'a> {
+        CouplingsForce {
+            couplings: self,
+            memory,
+        }
     }
 
     /// Begins a step: equations that begin to act start from what their sums are at displacements `u`, and those that end hand out the forces
     /// they let go with, by dof `[N]`, as loads. Pretensions go on from force or shortening.
-    pub fn begin_step(&mut self, times: StepTimes, u: &[f64], let_go: &mut dyn FnMut(usize, f64)) {
-        let Couplings {
-            definition, memory, ..
-        } = self;
+    pub fn begin_step(
+        &self,
+        memory: &mut CouplingsMemory,
+        times: StepTimes,
+        u: &[f64],
+        let_go: &mut dyn FnMut(usize, f64),
+    ) {
         let mut first = 0;
-        for coupling in definition.all() {
+        for coupling in self.definition.all() {
             let rows = first..first + coupling.rows.len();
             first = rows.end;
             match &coupling.tie {
@@ -150,10 +153,8 @@ impl Couplings {
     }
 
     /// Begins motion at velocities `v`: the forces that dashpots have there.
-    pub fn begin_motion(&mut self, t: f64, v: &[f64]) {
-        let Couplings {
-            definition, memory, ..
-        } = self;
+    pub fn begin_motion(&self, memory: &mut CouplingsMemory, t: f64, v: &[f64]) {
+        let definition = &self.definition;
         for (i, coupling, row) in definition.rows() {
             if matches!(coupling.tie, Tie::Dashpot { .. }) && !v.is_empty() {
                 memory.forces[i] = match definition.act(i, coupling, memory.start[i], t) {
@@ -164,26 +165,32 @@ impl Couplings {
         }
     }
 
-    /// Adds the forces of the last accepted state, which is at `u` with velocities `v`, to the internal ones, by dof.
-    pub fn add_initial(&self, t: f64, u: &[f64], v: &[f64], out: &mut [f64]) {
-        self.add_forces(&self.memory.multipliers, t, u, Some(v), out);
+    /// Adds the forces of the last accepted state, which has these displacements and velocities, to the internal ones, by dof.
+    pub fn add_initial(&self, memory: &CouplingsMemory, state: &State, out: &mut [f64]) {
+        let State { t, u, v, .. } = state;
+        let forces = Forces {
+            multipliers: &memory.multipliers,
+            velocities: Some(v),
+        };
+        self.add_forces(self.view(memory), *t, u, forces, out);
     }
 
     /// The same for the last attempt, which ended at `u`.
-    pub fn add_tried(&self, t: f64, u: &[f64], out: &mut [f64]) {
-        self.add_forces(&self.iterate.now, t, u, None, out);
+    pub fn add_tried(&self, memory: &CouplingsMemory, t: f64, u: &[f64], out: &mut [f64]) {
+        let forces = Forces {
+            multipliers: &self.iterate.now,
+            velocities: None,
+        };
+        self.add_forces(self.view(memory), t, u, forces, out);
     }
 
-    fn add_forces(
-        &self,
-        multipliers: &[f64],
-        t: f64,
-        u: &[f64],
-        v: Option<&[f64]>,
-        out: &mut [f64],
-    ) {
+    fn add_forces(&self, view: CouplingsView, t: f64, u: &[f64], forces: Forces, out: &mut [f64]) {
+        let Forces {
+            multipliers,
+            velocities,
+        } = forces;
         for (i, coupling, row) in self.rows() {
-            let force = match (self.act(i, coupling, t), v) {
+            let force = match (view.act(i, coupling, t), velocities) {
                 (Act::Idle, _) | (Act::Damped(_), Some([])) => continue,
                 (Act::Damped(coefficient), Some(v)) => coefficient * row.sum(v),
                 (Act::Damped(_), None) | (Act::Held(_) | Act::Stopped(_), _) => {
@@ -197,10 +204,9 @@ impl Couplings {
     }
 
     /// Multipliers take over from springs: they have the forces that these had. The energy of the springs that is gone, negative.
-    pub(super) fn keep_forces(&mut self) -> f64 {
+    pub(super) fn keep_forces(&self, memory: &mut CouplingsMemory) -> f64 {
         let Couplings {
             definition,
-            memory,
             iterate,
             ..
         } = self;
@@ -223,16 +229,33 @@ impl Couplings {
         memory.stored - before
     }
 
-    /// Energy in springs at displacements `u` at the start of the analysis `[J]`.
-    pub fn begin_analysis(&mut self, t: f64, u: &[f64]) -> f64 {
+    /// What they know at the start of the analysis, at displacements `u`.
+    pub fn begin_analysis(&self, t: f64, u: &[f64]) -> CouplingsMemory {
+        let targets = self.rows().map(|(_, coupling, _)| {
+            let own = match &coupling.tie {
+                Tie::Dashpot { coefficient } => *coefficient,
+                tie => tie.stiffness(),
+            };
+            let first = coupling.schedule.pieces.first();
+            own * first.map_or(1.0, |p| coupling.schedule.at(p.start))
+        });
+        let targets: Vec<f64> = targets.collect();
+        let none = vec![0.0; targets.len()];
+        let mut memory = CouplingsMemory {
+            multipliers: none.clone(),
+            forces: none.clone(),
+            start: none,
+            targets,
+            ..CouplingsMemory::default()
+        };
         let mut stored = 0.0;
         for (i, coupling, row) in self.rows() {
-            if let Act::Sprung(stiffness) = self.act(i, coupling, t) {
+            if let Act::Sprung(stiffness) = self.view(&memory).act(i, coupling, t) {
                 let stretch = coupling.tie.stretch(row.sum(u));
                 stored += 0.5 * stiffness * stretch.powi(2);
             }
         }
-        self.memory.stored = stored;
-        stored
+        memory.stored = stored;
+        memory
     }
 }

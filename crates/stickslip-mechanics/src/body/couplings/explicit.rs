@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 
 use super::all::{ExactForce, Hold};
 use super::definition::Act;
-use super::{Coupling, Couplings, Row, Tie};
+use super::{Coupling, Couplings, CouplingsMemory, Row, Tie};
 use crate::system::{Links, Schedule};
 
 impl Couplings {
     /// Begins explicit increments, or ends them. The energy `[J]` that springs in place of rigid stops had and that is forgotten now is returned, negative.
-    pub fn use_springs(&mut self, springs: bool) -> f64 {
+    pub fn use_springs(&mut self, memory: &mut CouplingsMemory, springs: bool) -> f64 {
         if self.explicit == springs {
             return 0.0;
         }
@@ -17,34 +17,35 @@ impl Couplings {
         if springs {
             return 0.0;
         }
-        self.keep_forces()
+        self.keep_forces(memory)
     }
 
     /// Starts from displacements `u` of the time `t`: what an equation is off by there it goes on to be off by, and a spring in place of a stop that carries something has the force of the multiplier. What
     /// the tolerance of Newton's method leaves would be a jolt.
-    pub fn start_explicit(&mut self, t: f64, u: &[f64]) {
+    pub fn start_explicit(&self, memory: &mut CouplingsMemory, t: f64, u: &[f64]) {
+        let view = self.view(memory);
         let rest = self.rows().map(|(i, coupling, row)| {
-            match (self.act(i, coupling, t), self.memory.forces[i] != 0.0) {
+            match (view.act(i, coupling, t), view.state.forces[i] != 0.0) {
                 (Act::Held(target), true) => row.sum(u) - target,
                 (Act::Stopped(clearance), true) => row.sum(u) + clearance,
                 _ => 0.0,
             }
         });
-        self.memory.rest = rest.collect();
+        memory.rest = rest.collect();
     }
 
     /// The equations that an explicit increment to the time `t` holds exactly: the number of each row, the row, and what its sum has to be.
-    pub fn exact_rows(&self, t: f64) -> impl Iterator<Item = (usize, &Row, f64)> {
+    pub fn exact_rows<'a>(
+        &'a self,
+        memory: &'a CouplingsMemory,
+        t: f64,
+    ) -> impl Iterator<Item = (usize, &'a Row, f64)> {
         let rows = self.rows().filter(|_| self.explicit);
-        rows.filter_map(move |(i, coupling, row)| match self.act(i, coupling, t) {
-            Act::Held(target) if !self.hold[i].idle => Some((i, row, target + self.memory.rest(i))),
+        let view = self.view(memory);
+        rows.filter_map(move |(i, coupling, row)| match view.act(i, coupling, t) {
+            Act::Held(target) if !self.hold[i].idle => Some((i, row, target + memory.rest(i))),
             _ => None,
         })
-    }
-
-    /// The force that a row had at the last accepted state, so that its equation goes on holding `[N]`.
-    pub fn exact_force(&self, i: usize) -> f64 {
-        self.memory.multipliers[i]
     }
 
     /// Enters the forces along rows over the increment at hand, by number, and adds those at its end to the residual.
@@ -62,21 +63,21 @@ impl Couplings {
     }
 
     /// Takes these forces for those of the last accepted state: what acts at the start of an explicit step.
-    pub fn start_exactly(&mut self) {
+    pub fn start_exactly(&self, memory: &mut CouplingsMemory) {
         for (i, force) in self.exact.iter().enumerate() {
             if self.explicit && *force != ExactForce::default() {
-                self.memory.multipliers[i] = force.to;
-                self.memory.forces[i] = force.to;
+                memory.multipliers[i] = force.to;
+                memory.forces[i] = force.to;
             }
         }
     }
 
     /// The rigid stops that springs stand for in an explicit step, with the energy of these springs at the last accepted state `[J]`. What a multiplier carried
     /// when the step began is in none of them.
-    pub fn spring_energies(&self) -> Vec<(&str, f64)> {
+    pub fn spring_energies(&self, memory: &CouplingsMemory) -> Vec<(&str, f64)> {
         let mut out: Vec<(&str, f64)> = Vec::new();
         for (i, coupling, _) in self.rows() {
-            let (hold, memory) = (self.hold[i], &self.memory);
+            let hold = self.hold[i];
             let stop = matches!(coupling.tie, Tie::Gap { .. }) && coupling.tie.firm();
             if !self.explicit || !stop || hold.idle || hold.stiffness <= 0.0 {
                 continue;
@@ -98,7 +99,7 @@ impl Couplings {
     /// of the bodies, which makes increments shorter by a third at most; those that act at `t` share what there is. Equations of nothing that could move are idle.
     pub fn fit_springs(&mut self, t: f64, highest: f64, inverse_mass: &[f64], links: &Links) {
         let of = |stops: bool| {
-            let counts = |i: usize, c: &Coupling| match self.act(i, c, t) {
+            let counts = |i: usize, c: &Coupling| match self.definition.act(i, c, 0.0, t) {
                 Act::Stopped(_) => 1.0,
                 Act::Held(_) if !stops => 1.0,
                 _ => 0.0,
@@ -114,9 +115,10 @@ impl Couplings {
 
     /// An upper bound of the squared frequency `[1/s²]` of all springs that act from `t` on, with these inverse masses by dof.
     pub fn highest_frequency(&self, t: f64, inverse_mass: &[f64], links: &Links) -> f64 {
-        let stiffness = |i: usize, coupling: &Coupling| match self.act(i, coupling, t) {
+        let definition = &self.definition;
+        let stiffness = |i: usize, c: &Coupling| match definition.act(i, c, 0.0, t) {
             Act::Idle | Act::Pulled(_) | Act::Damped(_) | Act::Held(_) => 0.0,
-            Act::Sprung(_) => coupling.tie.stiffness() * most(&coupling.schedule),
+            Act::Sprung(_) => c.tie.stiffness() * most(&c.schedule),
             Act::Stopped(_) => self.hold[i].stiffness,
         };
         let all = self.squared_frequencies(&stiffness, inverse_mass, links);

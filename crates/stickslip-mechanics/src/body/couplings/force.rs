@@ -3,17 +3,32 @@
 use super::all::Iterate;
 use super::definition::Act;
 use super::elimination::FIRM;
-use super::{Couplings, Row, Tie};
+use super::{Couplings, CouplingsForce, CouplingsMemory, Row, Tie};
 use crate::math::larger;
 use crate::system::{Assembler, Cause, Force, Stage, StepFailure, Tangent};
 
 /// How far an equation of nothing but prescribed displacements may be off, relative to their size.
 const AGREED: f64 = 1e-9;
 
-impl Force for Couplings {
+impl std::ops::Deref for CouplingsForce<'_> {
+    type Target = Couplings;
+
+    fn deref(&self) -> &Couplings {
+        self.couplings
+    }
+}
+
+impl std::ops::DerefMut for CouplingsForce<'_> {
+    fn deref_mut(&mut self) -> &mut Couplings {
+        self.couplings
+    }
+}
+
+impl Force for CouplingsForce<'_> {
     fn begin(&mut self) {
-        self.iterate.now.clone_from(&self.memory.multipliers);
-        self.iterate.last.clone_from(&self.memory.multipliers);
+        let multipliers = &self.memory.multipliers;
+        self.couplings.iterate.now.clone_from(multipliers);
+        self.couplings.iterate.last.clone_from(multipliers);
         self.iterate.off.fill(0.0);
         self.fit_alone();
     }
@@ -23,14 +38,14 @@ impl Force for Couplings {
         if out.wants_tangent && !explicit {
             self.fit_beside(&out.blocks);
         }
+        let memory = self.memory;
         let Couplings {
             definition,
             hold,
             iterate: Iterate { now, off_now, .. },
             elimination,
-            memory,
             ..
-        } = self;
+        } = &mut *self.couplings;
         let mut scratch = Scratch::default();
         let mut failure = None;
         let u = &stage.at.u;
@@ -130,28 +145,45 @@ impl Force for Couplings {
     }
 
     fn settle(&mut self) {
-        self.iterate.last.clone_from(&self.iterate.now);
-        self.iterate.off.clone_from(&self.iterate.off_now);
+        let Iterate {
+            last,
+            off,
+            now,
+            off_now,
+        } = &mut self.couplings.iterate;
+        last.clone_from(now);
+        off.clone_from(off_now);
     }
 
     fn update_internal(&mut self, du: &[f64], step: f64) {
-        for (i, coupling, row) in self.definition.rows() {
-            let hold = self.hold[i];
+        let Couplings {
+            definition,
+            hold,
+            iterate,
+            elimination,
+            ..
+        } = &mut *self.couplings;
+        for (i, coupling, row) in definition.rows() {
+            let hold = hold[i];
             if !coupling.tie.firm() || hold.idle {
                 continue;
             }
-            let stiffness = self.elimination.of(i).unwrap_or(hold.stiffness);
-            let (last, off) = (self.iterate.last[i], self.iterate.off[i]);
-            self.iterate.now[i] = match off.is_finite() {
+            let stiffness = elimination.of(i).unwrap_or(hold.stiffness);
+            let (last, off) = (iterate.last[i], iterate.off[i]);
+            iterate.now[i] = match off.is_finite() {
                 true => last + step * stiffness * (off + row.sum(du)),
                 false => (1.0 - step) * last,
             };
         }
     }
+}
 
-    fn commit(&mut self, stage: &Stage) {
+impl Couplings {
+    /// What they know after an attempt that is accepted.
+    pub fn commit(&self, before: &CouplingsMemory, stage: &Stage) -> CouplingsMemory {
         let (explicit, now) = (self.explicit, &self.iterate.now);
-        let (definition, memory) = (&self.definition, &mut self.memory);
+        let definition = &self.definition;
+        let mut memory = before.clone();
         let (u, before) = (&stage.at.u, &stage.from.u);
         let at_rest = stage.rate.is_none() && !explicit;
         memory.stored = 0.0;
@@ -239,9 +271,9 @@ impl Force for Couplings {
                 Act::Idle => {}
             }
         }
+        memory
     }
 }
-
 /// What the sum of a row changes at per time: as the scheme of the increment has it, or as it is known. Nothing where inertia plays no part.
 fn rate_of(row: &Row, stage: &Stage, explicit: bool) -> f64 {
     let Some(rate) = &stage.rate else {

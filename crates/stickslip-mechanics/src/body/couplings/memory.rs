@@ -23,6 +23,11 @@ pub struct CouplingsMemory {
 }
 
 impl CouplingsMemory {
+    /// The force that a row had at the last accepted state, so that its equation goes on holding `[N]`.
+    pub fn exact_force(&self, i: usize) -> f64 {
+        self.multipliers[i]
+    }
+
     /// By how much a row was off when explicit increments began `[m]`.
     pub(super) fn rest(&self, i: usize) -> f64 {
         self.rest.get(i).copied().unwrap_or(0.0)

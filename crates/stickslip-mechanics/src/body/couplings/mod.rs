@@ -37,7 +37,7 @@ mod spring;
 mod state;
 mod view;
 
-pub use all::{Couplings, ExactForce};
+pub use all::{Couplings, CouplingsForce, ExactForce};
 pub use axial_spring::AxialSpring;
 pub use dashpot::Dashpot;
 pub use definition::{Coupling, CouplingsDefinition, Meets, StepTimes, Tie};

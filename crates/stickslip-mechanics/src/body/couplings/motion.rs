@@ -1,7 +1,7 @@
 //! The forces of equations at the start of motion, and how points without mass go with those that have one.
 
-use super::Couplings;
 use super::definition::Act;
+use super::{Couplings, CouplingsMemory};
 use crate::linear::{GmresSettings, gmres};
 use crate::system::{Links, StepFailure};
 
@@ -124,7 +124,7 @@ impl Couplings {
             dofs: Vec::new(),
         };
         for (i, coupling, row) in self.rows() {
-            let terms = match self.act(i, coupling, t) {
+            let terms = match self.definition.act(i, coupling, 0.0, t) {
                 Act::Held(_) => links.moved(row.terms()),
                 _ => continue,
             };
@@ -165,7 +165,8 @@ impl Couplings {
     /// # Errors
     /// Those of `accelerate`.
     pub fn start_motion(
-        &mut self,
+        &self,
+        memory: &mut CouplingsMemory,
         start: &MotionStart,
         accelerate: Accelerate<'_>,
         a: &mut [f64],
@@ -225,8 +226,8 @@ impl Couplings {
             *out += f;
         }
         for ((i, _), m) in held.rows.iter().zip(&multipliers) {
-            self.memory.multipliers[*i] += m;
-            self.memory.forces[*i] = self.memory.multipliers[*i];
+            memory.multipliers[*i] += m;
+            memory.forces[*i] = memory.multipliers[*i];
         }
         Ok(())
     }

@@ -1,7 +1,6 @@
 //! What a checkpoint has of couplings.
 
 use super::all::{Couplings, Hold, Iterate};
-use super::memory::CouplingsMemory;
 
 crate::keep!(Hold { stiffness, idle });
 crate::keep!(Iterate {
@@ -11,29 +10,26 @@ crate::keep!(Iterate {
     off_now
 });
 
-/// All that couplings know beyond their definition.
+/// All that couplings know beyond their definition and what accepted increments have left.
 #[derive(Debug, Clone)]
 pub struct CouplingsState {
     hold: Vec<Hold>,
     iterate: Iterate,
-    memory: CouplingsMemory,
     explicit: bool,
 }
 
 crate::keep!(CouplingsState {
     hold,
     iterate,
-    memory,
     explicit
 });
 
 impl Couplings {
-    /// All that they know beyond their definition.
+    /// All that they know beyond their definition and what accepted increments have left.
     pub fn state(&self) -> CouplingsState {
         CouplingsState {
             hold: self.hold.clone(),
             iterate: self.iterate.clone(),
-            memory: self.memory.clone(),
             explicit: self.explicit,
         }
     }
@@ -43,12 +39,10 @@ impl Couplings {
         let CouplingsState {
             hold,
             iterate,
-            memory,
             explicit,
         } = state;
         self.hold = hold;
         self.iterate = iterate;
-        self.memory = memory;
         self.explicit = explicit;
     }
 }

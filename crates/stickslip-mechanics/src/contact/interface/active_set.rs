@@ -1,10 +1,10 @@
 //! Points that change status, as Newton's method sees them.
 
 use super::on_facet::MOST_LEFT;
-use super::parts::Interface;
+use super::parts::InterfaceForce;
 use crate::system::ActiveSet;
 
-impl ActiveSet for Interface {
+impl ActiveSet for InterfaceForce<'_> {
     fn chattering(&self) -> Vec<usize> {
         let flips = self.attempt.flips.iter().enumerate();
         flips

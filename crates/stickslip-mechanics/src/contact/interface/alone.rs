@@ -3,7 +3,7 @@
 use super::cache::Cache;
 use super::evaluation::{Batch, Evaluation};
 use super::input::InterfaceInput;
-use super::parts::Interface;
+use super::parts::InterfaceForce;
 use super::pass::evaluate_all;
 use super::scene::Wants;
 use crate::friction::PointLaw;
@@ -93,7 +93,7 @@ fn limit_alone(interface: InterfaceInput, e: &Evaluation) -> PointLaw {
 }
 
 /// Takes the forces of a friction problem for multipliers where these are unknowns; a point without any carries nothing.
-pub(super) fn adopt_forces(interface: &mut Interface, forces: &[Option<[f64; 3]>]) {
+pub(super) fn adopt_forces(interface: &mut InterfaceForce, forces: &[Option<[f64; 3]>]) {
     if !interface.view().unknown() {
         return;
     }

@@ -2,7 +2,7 @@
 
 use super::evaluation::Evaluations;
 use super::input::InterfaceInput;
-use super::parts::Interface;
+use super::parts::InterfaceForce;
 use super::stiffness::own_stiffness;
 use crate::contact::enforcement::Multipliers;
 use crate::contact::response::Status;
@@ -16,7 +16,7 @@ const GAIN: f64 = 0.1;
 const ROUNDING: f64 = 16.0;
 
 /// Moves the centres of an augmented Lagrangian to the multipliers, and tightens the enforcement where that gains little.
-pub(super) fn update_multipliers(interface: &mut Interface, stage: &Stage) -> Augmentation {
+pub(super) fn update_multipliers(interface: &mut InterfaceForce, stage: &Stage) -> Augmentation {
     let Multipliers::Augmented { error } = interface.laws.enforcement.as_dyn().multipliers() else {
         return Augmentation::Done;
     };
@@ -58,7 +58,7 @@ fn elastic_approach(interface: InterfaceInput, last: &Evaluations, stage: &Stage
 }
 
 /// Makes the multipliers the centres of the next round; the largest length by which that moves them `[m]`.
-fn centre(interface: &mut Interface) -> f64 {
+fn centre(interface: &mut InterfaceForce) -> f64 {
     let mut worst: f64 = 0.0;
     let multipliers = interface.attempt.multipliers.iter_mut();
     for (m, e) in multipliers.zip(&interface.cache.last.points) {

@@ -1,5 +1,8 @@
 //! How an interface begins to act: the gaps it counts from, and the places its points are moved to.
 
+use std::sync::Arc;
+
+use super::history::History;
 use super::initial::{CLOSE, GLUE, Start, Within};
 use super::parts::Interface;
 use super::pass::all_gaps_at;
@@ -7,16 +10,17 @@ use crate::contact::surface::ContactPoint;
 use crate::system::{Stage, State};
 
 /// Takes note of the gaps with which the interface begins to act, if it has not begun yet, in a step from `span[0]` to `span[1]`.
-pub fn begin_acting(interface: &mut Interface, stage: &Stage, span: [f64; 2]) {
-    if interface.state.start.begun || !interface.schedule.active(0.5 * (span[0] + span[1])) {
+pub fn begin_acting(interface: &mut Interface, state: &mut History, stage: &Stage, span: [f64; 2]) {
+    if state.start.begun || !interface.schedule.active(0.5 * (span[0] + span[1])) {
         return;
     }
-    interface.state.start.begun = true;
-    interface.state.start.span = span;
+    let start = Arc::make_mut(&mut state.start);
+    start.begun = true;
+    start.span = span;
     if !matches!(interface.initial.start, Start::Offset | Start::Ramp) {
         return;
     }
-    let gaps = all_gaps_at(interface, stage);
+    let gaps = all_gaps_at(&mut interface.force(state), stage);
     let largest = match interface.initial.start {
         Start::Offset => interface.initial.within.unwrap_or(CLOSE),
         _ => Within::Distance(0.0),
@@ -33,15 +37,15 @@ pub fn begin_acting(interface: &mut Interface, stage: &Stage, span: [f64; 2]) {
             }
         })
         .collect();
-    interface.state.start.offset = offset;
+    Arc::make_mut(&mut state.start).offset = offset;
 }
 
 /// Finds the distances of tied surfaces in the reference configuration.
-pub(super) fn glue(interface: &mut Interface, stage: &Stage) {
-    if !interface.laws.tied || !interface.state.start.glued.is_empty() {
+pub fn glue(interface: &mut Interface, state: &mut History, stage: &Stage) {
+    if !interface.laws.tied || !state.start.glued.is_empty() {
         return;
     }
-    interface.state.start.glued = vec![0.0; interface.points.len()];
+    Arc::make_mut(&mut state.start).glued = vec![0.0; interface.points.len()];
     let rest = State {
         t: stage.from.t,
         u: vec![0.0; stage.at.u.len()],
@@ -54,7 +58,7 @@ pub(super) fn glue(interface: &mut Interface, stage: &Stage) {
         rate: None,
         frames: stage.frames,
     };
-    let gaps = all_gaps_at(interface, &still);
+    let gaps = all_gaps_at(&mut interface.force(state), &still);
     let within = interface.initial.within.unwrap_or(GLUE);
     let near = |(gap, p): (f64, &ContactPoint)| {
         if gap.abs() <= within.of(p.size) {
@@ -64,5 +68,5 @@ pub(super) fn glue(interface: &mut Interface, stage: &Stage) {
         }
     };
     let glued = gaps.into_iter().zip(&interface.points).map(near).collect();
-    interface.state.start.glued = glued;
+    Arc::make_mut(&mut state.start).glued = glued;
 }

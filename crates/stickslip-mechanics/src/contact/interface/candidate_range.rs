@@ -2,6 +2,7 @@
 
 use super::candidates::{closest_of_all, update_candidates};
 use super::definition::{InterfaceDefinition, Primary};
+use super::history::History;
 use super::parts::Interface;
 use super::search::Search;
 use super::view::ContactView;
@@ -35,13 +36,13 @@ const INNER: f64 = 0.5;
 /// points of the mesh. What is marked already, and what has been in contact, takes part in any case.
 pub fn restrict_to_candidates(
     interface: &mut Interface,
+    state: &History,
     u: &[f64],
     range: CandidateRange,
     kept: &mut [bool],
 ) {
-    interface.ready();
     let x = interface.coordinates(u);
-    let distances = distances(interface.view(), &x, range);
+    let distances = distances(interface.view(state), &x, range);
     let length = |nodes: &[usize]| distance(x[nodes[0]], x[nodes[1]]);
     let facets = interface.facets().iter().map(|f| length(&f.nodes));
     let size = facets.fold(0.0, f64::max);
@@ -52,11 +53,11 @@ pub fn restrict_to_candidates(
     let mut inner = Vec::with_capacity(distances.len());
     for (i, (point, &d)) in interface.points.iter().zip(&distances).enumerate() {
         let known = point.nodes.iter().all(|&n| kept[interface.nodes[n]]);
-        let included = d <= limit || known || interface.state.points[i].status != Status::Open;
+        let included = d <= limit || known || state.points[i].status != Status::Open;
         excluded.push(!included);
         inner.push(d <= INNER * limit || known);
         if included {
-            mark(interface.view(), i, near.get(i), kept);
+            mark(interface.view(state), i, near.get(i), kept);
         }
     }
     if excluded.iter().all(|excluded| !excluded) {

@@ -1,6 +1,7 @@
 //! Laws that are exchanged between two steps.
 
 use super::energies::stored_energy;
+use super::history::History;
 use super::parts::Interface;
 use crate::contact::law::friction::FrictionModel;
 use crate::contact::law::normal::NormalModel;
@@ -20,8 +21,8 @@ pub struct Change {
 }
 
 /// Takes other laws, between two increments, in place of those of the problem or the program. The energy `[J]` by which the law now stores more is returned.
-pub fn change(interface: &mut Interface, change: &Change) -> f64 {
-    let before = stored_energy(interface.view());
+pub fn change(interface: &mut Interface, state: &History, change: &Change) -> f64 {
+    let before = stored_energy(interface.view(state));
     if let Some(normal) = &change.normal {
         interface.definition.laws.normal = normal.clone();
         interface.definition.laws.user.normal = None;
@@ -30,5 +31,5 @@ pub fn change(interface: &mut Interface, change: &Change) -> f64 {
         interface.definition.laws.friction = friction.clone();
         interface.definition.laws.user.friction = None;
     }
-    stored_energy(interface.view()) - before
+    stored_energy(interface.view(state)) - before
 }

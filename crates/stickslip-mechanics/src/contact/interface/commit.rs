@@ -1,5 +1,7 @@
 //! What an accepted increment leaves behind: histories, and the energies that went through the interface on the way.
 
+use std::sync::Arc;
+
 use super::belt::belt_path;
 use super::cache::Cache;
 use super::cone::judge_friction;
@@ -9,7 +11,7 @@ use super::evaluation::{Evaluation, Evaluations};
 use super::history::{History, PointHistory};
 use super::input::InterfaceInput;
 use super::on_ground::wear_ground;
-use super::parts::Interface;
+use super::parts::InterfaceForce;
 use super::pass::evaluate_all;
 use super::scene::Wants;
 use super::sides::{leave_traces, opposite};
@@ -51,10 +53,10 @@ struct Increment {
 }
 
 /// What the committed history becomes: the trial, and what that adds to the energies.
-pub fn commit(interface: &mut Interface, stage: &Stage) -> History {
+pub fn commit(interface: &mut InterfaceForce, stage: &Stage) -> History {
     let active = interface.schedule.active(stage.at.t);
     let cone = judge_friction(interface, stage);
-    let nodal = nodal_forces(&interface.definition, &interface.cache.last, active);
+    let nodal = nodal_forces(interface.definition, &interface.cache.last, active);
     trust_multipliers(&mut interface.cache.last.points);
     let (input, cache) = interface.parts();
     let state = input.state;
@@ -62,9 +64,9 @@ pub fn commit(interface: &mut Interface, stage: &Stage) -> History {
         points: Vec::with_capacity(state.points.len()),
         acting: active && !cache.last.points.is_empty(),
         opposite: opposite(input.definition, &cache.last),
-        start: state.start.clone(),
+        start: Arc::clone(&state.start),
         springs: state.springs,
-        rest: state.rest.clone(),
+        rest: Arc::clone(&state.rest),
         energy: state.energy,
         worn: state.worn,
         nodal,
@@ -106,7 +108,9 @@ pub fn commit(interface: &mut Interface, stage: &Stage) -> History {
         dissipated += passed.dissipated * area;
         work += passed.work * area;
     }
-    next.start.overlap.clear();
+    if !state.start.overlap.is_empty() {
+        Arc::make_mut(&mut next.start).overlap.clear();
+    }
     next.energy.dissipated += dissipated;
     leave_traces(input.definition, last, &traces, &mut next);
     hollow_out(input.definition, last, &volumes, &mut next);

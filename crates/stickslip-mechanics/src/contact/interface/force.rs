@@ -3,29 +3,27 @@
 use super::alone::{adopt_forces, points_alone};
 use super::augment::update_multipliers;
 use super::axles::hold_axles;
-use super::beginning::glue;
 use super::cache::Cache;
 use super::candidates::{pair_reference, update_candidates};
-use super::commit::commit;
 use super::curvature::add_curvature;
 use super::definition::InterfaceDefinition;
 use super::evaluation::Evaluations;
-use super::parts::Interface;
+use super::parts::InterfaceForce;
 use super::pass::evaluate_all;
 use super::scene::Wants;
-use super::symptoms::{culprit, culprits};
-use crate::contact::response::Status;
+use super::symptoms::{LastAttempt, culprit, culprits};
 use crate::math::{add_scaled, larger, scale};
 use crate::system::{
     ActiveSet, Assembler, Augmentation, ContactPair, Culprit, Force, PointAlone, Stage,
     StepFailure, Tally,
 };
 
-impl Force for Interface {
+impl Force for InterfaceForce<'_> {
     fn prepare(&mut self, stage: &Stage) {
-        self.ready();
-        glue(self, stage);
-        let (definition, geometry) = (&self.definition, &mut self.cache.geometry);
+        if self.attempt.multipliers.len() != self.points.len() {
+            self.begin_attempt();
+        }
+        let (definition, geometry) = (self.definition, &mut self.cache.geometry);
         pair_reference(definition, geometry);
         if definition.mortar.is_none() && !definition.kinematics.as_dyn().frozen() {
             definition.coordinates_into(definition.frames_at(stage), &stage.at.u, &mut geometry.x);
@@ -34,7 +32,6 @@ impl Force for Interface {
     }
 
     fn begin(&mut self) {
-        self.state.fit(self.definition.points.len());
         self.begin_attempt();
     }
 
@@ -60,14 +57,14 @@ impl Force for Interface {
             spatial,
             geometry,
             ..
-        } = &mut self.cache;
+        } = &mut *self.cache;
         let evaluations = if active { trial } else { &nothing };
         match self.definition.frames_at(stage).is_empty() {
-            true => scatter(&self.definition, evaluations, out),
+            true => scatter(self.definition, evaluations, out),
             // As they act on points in space, and then on bodies and frames of bodies that turn.
             false => {
                 spatial.begin_beside(out);
-                scatter(&self.definition, evaluations, spatial);
+                scatter(self.definition, evaluations, spatial);
                 geometry.in_space.assemble(spatial, out);
             }
         }
@@ -83,7 +80,7 @@ impl Force for Interface {
 
     fn curve(&self, out: &mut Assembler) {
         let first = out.blocks.len();
-        add_curvature(self.input(), &self.cache, out);
+        add_curvature(self.input(), self.cache, out);
         self.cache
             .geometry
             .in_space
@@ -91,7 +88,12 @@ impl Force for Interface {
     }
 
     fn hold_back(&self, b: &[f64], out: &mut Assembler) {
-        hold_axles(self, self.cache.geometry.in_space.frames(), b, out);
+        hold_axles(
+            self.definition,
+            self.cache.geometry.in_space.frames(),
+            b,
+            out,
+        );
     }
 
     fn settle(&mut self) {
@@ -143,37 +145,31 @@ impl Force for Interface {
         adopt_forces(self, forces);
     }
 
-    fn commit(&mut self, stage: &Stage) {
-        self.state = commit(self, stage);
-    }
-
     fn tally(&self) -> Option<Tally> {
-        let mut tally = Tally {
-            changed: self.attempt.changed,
-            ..Tally::default()
-        };
-        // Tied surfaces neither stick nor slip.
-        let points = self.cache.last.points.iter().filter(|_| !self.laws.tied);
-        for e in points {
-            match e.response.status {
-                Status::Open => tally.open += 1,
-                Status::Stick => tally.stick += 1,
-                Status::Slip => tally.slip += 1,
-            }
-        }
-        Some(tally)
+        Some(self.tried().tally())
     }
 
     fn diagnose(&self) -> Vec<Culprit> {
-        culprits(self)
+        culprits(self.tried())
     }
 
     fn place(&self, point: usize) -> Option<Culprit> {
-        (point < self.points.len()).then(|| culprit(self, point))
+        (point < self.points.len()).then(|| culprit(self.tried(), point))
     }
 
     fn active_set(&mut self) -> Option<&mut dyn ActiveSet> {
         Some(self)
+    }
+}
+
+impl InterfaceForce<'_> {
+    /// What it did in the present attempt.
+    fn tried(&self) -> LastAttempt<'_> {
+        LastAttempt {
+            interface: self.definition,
+            attempt: self.attempt,
+            cache: self.cache,
+        }
     }
 }
 
@@ -234,11 +230,11 @@ fn add_pairs(definition: &InterfaceDefinition, evaluations: &Evaluations, out: &
 }
 
 /// Keeps the trial for what comes next: where the iterate stays, its multiplier rows are needed until the step has been taken.
-fn keep(interface: &mut Interface, out: &Assembler) {
+fn keep(interface: &mut InterfaceForce, out: &Assembler) {
     let pending = out.wants_tangent && out.tentative;
     interface.attempt.tentative = pending;
     let unknown = interface.view().unknown();
-    let cache = &mut interface.cache;
+    let cache = &mut *interface.cache;
     if unknown && (pending || !out.wants_tangent) {
         for (kept, e) in cache.last.points.iter_mut().zip(&cache.trial.points) {
             kept.response = e.response;
@@ -253,9 +249,9 @@ fn keep(interface: &mut Interface, out: &Assembler) {
 }
 
 /// Makes the last evaluation the iterate from which Newton's method steps.
-fn record(interface: &mut Interface) {
+fn record(interface: &mut InterfaceForce) {
     let unknown = interface.view().unknown();
-    let attempt = &mut interface.attempt;
+    let attempt = &mut *interface.attempt;
     let last = &interface.cache.last.points;
     attempt.never_in_contact = false;
     attempt.changed = 0;

@@ -1,5 +1,7 @@
 //! What an interface knows of accepted increments: plain data, which a checkpoint holds and an increment that waits for its report keeps.
 
+use std::sync::Arc;
+
 use super::ground::Depths;
 use crate::contact::response::Status;
 use crate::math::Vec3;
@@ -8,18 +10,18 @@ use crate::system::Energy;
 /// What commits have written. Everything that is reported follows from it, from the definition of the interface and from displacements.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct History {
-    /// By contact point; empty before there was anything.
+    /// By contact point.
     pub(in crate::contact) points: Vec<PointHistory>,
     /// Whether the points are those of an evaluation: not before the first commit, nor while the interface does not act.
     pub(in crate::contact) acting: bool,
     /// Where points lay over the primary.
     pub(in crate::contact) opposite: Opposite,
     /// What was found when the interface began to act.
-    pub(in crate::contact) start: Origin,
+    pub(in crate::contact) start: Arc<Origin>,
     /// Springs act in place of multipliers, as explicit dynamics has it.
     pub(in crate::contact) springs: bool,
     /// Gaps at which springs that replace multipliers carry nothing `[m]`; empty where all of them are zero.
-    pub(in crate::contact) rest: Vec<f64>,
+    pub(in crate::contact) rest: Arc<Vec<f64>>,
     /// Energies, of which all but the stored one add up over increments.
     pub(in crate::contact) energy: Energy,
     /// Volume that the side with the points and the other have lost `[m³]`.
@@ -124,10 +126,11 @@ pub(in crate::contact) struct Cone {
 }
 
 impl History {
-    /// Room for as many points as there are.
-    pub(in crate::contact) fn fit(&mut self, points: usize) {
-        if self.points.len() != points {
-            self.points = vec![PointHistory::default(); points];
+    /// That of so many points to which nothing has happened yet.
+    pub fn new(points: usize) -> Self {
+        History {
+            points: vec![PointHistory::default(); points],
+            ..History::default()
         }
     }
 
@@ -142,7 +145,7 @@ impl History {
 
     /// Whether it can be that of an interface with so many points.
     pub fn fits(&self, points: usize) -> bool {
-        self.points.is_empty() || self.points.len() == points
+        self.points.len() == points
     }
 
     /// Memory that it takes `[bytes]`.

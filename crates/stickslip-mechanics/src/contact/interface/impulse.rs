@@ -1,6 +1,6 @@
 //! Contact of masses with what does not give way: the points that are pressed, as an impact sees them.
 
-use super::parts::Interface;
+use super::parts::InterfaceForce;
 use super::pass::evaluate_all;
 use super::scene::Wants;
 use crate::system::Stage;
@@ -17,7 +17,7 @@ pub struct Pressed {
 }
 
 /// The points that are pressed at the end of an increment that has been solved.
-pub fn pressed_points(interface: &mut Interface, stage: &Stage) -> Vec<Pressed> {
+pub fn pressed_points(interface: &mut InterfaceForce, stage: &Stage) -> Vec<Pressed> {
     if !interface.schedule.active(stage.at.t) {
         return Vec::new();
     }

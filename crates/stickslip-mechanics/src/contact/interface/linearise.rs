@@ -1,10 +1,9 @@
 //! What small motions about an accepted state meet at each contact point.
 
 use super::cache::Geometry;
-use super::conditions::Conditions;
 use super::evaluation::{Batch, Evaluation};
 use super::input::InterfaceInput;
-use super::parts::Interface;
+use super::parts::InterfaceForce;
 use super::pass::evaluate_all;
 use super::scene::Wants;
 use crate::contact::enforcement::{Multipliers, condensed_slope, inverse_of_rows};
@@ -49,11 +48,7 @@ pub struct LinearPoint {
 /// Points that slide have no stiffness along the surface, also those that slid in the last increment of a step that was not steady; what sticks has all of
 /// it. Constraints that multipliers hold exactly are as stiff as rounding allows. How gradients turn with displacements is left out: that is of the size of
 /// pressure over modulus.
-pub fn linearise(
-    interface: &mut Interface,
-    conditions: &Conditions,
-    stage: &Stage,
-) -> Vec<LinearPoint> {
+pub fn linearise(interface: &mut InterfaceForce, stage: &Stage) -> Vec<LinearPoint> {
     if !interface.schedule.active(stage.at.t) {
         return Vec::new();
     }
@@ -66,10 +61,6 @@ pub fn linearise(
         ..Wants::default()
     };
     let (input, cache) = interface.parts();
-    let input = InterfaceInput {
-        conditions,
-        ..input
-    };
     evaluate_all(input, cache, stage, wants);
     let (evaluations, geometry) = (&cache.trial, &cache.geometry);
     let points = evaluations.points.iter().enumerate();

@@ -4,7 +4,7 @@ use super::candidates::{closest_of_all, update_candidates};
 use super::definition::Primary;
 use super::initial::TOUCHING;
 use super::input::InterfaceInput;
-use super::parts::Interface;
+use super::parts::InterfaceForce;
 use super::search::Search;
 use super::view::ContactView;
 use crate::contact::kinematics::mean_gap;
@@ -44,7 +44,7 @@ const STRIDE: f64 = 0.5;
 
 /// How much of the motion `w` (by dof, added to displacements `u`) can be made at time `t` until points of the secondary touch the
 /// primary.
-pub fn meeting(interface: &mut Interface, u: &[f64], w: &[f64], t: f64) -> Meeting {
+pub fn meeting(interface: &mut InterfaceForce, u: &[f64], w: &[f64], t: f64) -> Meeting {
     let none = Meeting::none();
     let speeds: Vec<Vec3> = (interface.nodes.iter())
         .map(|&node| interface.dofs.vector(w, node))

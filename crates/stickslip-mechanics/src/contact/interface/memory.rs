@@ -7,6 +7,7 @@ use super::conditions::Conditions;
 use super::definition::Primary;
 use super::evaluation::{Evaluations, Trace};
 use super::faces::integrate_faces;
+use super::history::History;
 use super::parts::Interface;
 use super::scene::Wants;
 use crate::contact::mortar::Merged;
@@ -58,7 +59,7 @@ pub fn memory(interface: &Interface) -> Memory {
 
 /// Goes on with that, and what can be made again made again. Of an interface whose history is that of the memory, after an accepted increment that ended
 /// with displacements `u`, those of increments that wait for their interiors too.
-pub fn remember(interface: &mut Interface, memory: Memory, u: &[f64]) {
+pub fn remember(interface: &mut Interface, state: &History, memory: Memory, u: &[f64]) {
     let Memory {
         attempt,
         conditions,
@@ -73,6 +74,7 @@ pub fn remember(interface: &mut Interface, memory: Memory, u: &[f64]) {
     interface.cache = Cache::default();
     let evaluated = !last.is_empty();
     interface.cache.last = Evaluations::of_traces(last);
+    let mut interface = interface.force(state);
     let (interface, Cache { geometry, .. }) = interface.parts();
     geometry.merged.nodes = merged;
     if paired {

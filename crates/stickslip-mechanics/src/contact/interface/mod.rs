@@ -62,7 +62,7 @@ mod objective;
 pub(super) mod tests;
 
 pub use attempt::Attempt;
-pub use beginning::begin_acting;
+pub use beginning::{begin_acting, glue};
 pub use cache::Cache;
 pub use candidate_range::{CandidateRange, include_all, restrict_to_candidates, spreads};
 pub use change::{Change, change};
@@ -81,7 +81,7 @@ pub use onset::{
     Tried, add_initial_forces, adopt_light_tractions, adopt_tractions, evaluate_laws,
     presses_light_points, tried_tractions,
 };
-pub use parts::Interface;
+pub use parts::{Interface, InterfaceForce};
 pub use pass::gaps_at;
 pub use springs::{pull_ties, use_springs};
 pub use stiffness::set_masses;

@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use super::commit::commit;
 use super::definition::{InterfaceDefinition, Primary};
-use super::history::PointHistory;
+use super::history::{History, PointHistory};
 use super::parts::Interface;
+use super::view::ContactView;
 use super::{Hollows, Initial};
 use crate::contact::enforcement::{EnforcementModel, Penalty};
 use crate::contact::kinematics::{KinematicsModel, Pop1995, SmallSliding};
@@ -112,7 +114,7 @@ fn drum(
     kinematics: KinematicsModel,
     (mortar, triangles, quadratic): (bool, bool, bool),
     slip: SlipModel,
-) -> Interface {
+) -> Followed {
     let layers = if dim == 2 { 0 } else { LAYERS };
     let sheet = |radius: f64, start: f64, step: f64, around: Option<usize>| Sheet {
         radius,
@@ -184,7 +186,7 @@ fn drum(
     });
     let mortar = mortar.then(|| Mortar::new(faces.collect(), points.len()));
     let hollows = Hollows::new(&facets, &reference, |_| 1.0);
-    Interface::new(InterfaceDefinition {
+    let interface = Interface::new(InterfaceDefinition {
         name: "shoe".into(),
         dofs: Dofs {
             dim,
@@ -219,17 +221,50 @@ fn drum(
         origin: [0.0; 3],
         initial: Initial::default(),
         relief: Vec::new(),
-    })
+    });
+    Followed {
+        state: History::new(interface.points.len()),
+        interface,
+    }
+}
+
+/// An interface with what it has been through.
+#[derive(Clone)]
+pub(super) struct Followed {
+    interface: Interface,
+    pub state: History,
+}
+
+impl std::ops::Deref for Followed {
+    type Target = Interface;
+
+    fn deref(&self) -> &Interface {
+        &self.interface
+    }
+}
+
+impl std::ops::DerefMut for Followed {
+    fn deref_mut(&mut self) -> &mut Interface {
+        &mut self.interface
+    }
+}
+
+impl Followed {
+    /// It as those see it who only look.
+    pub fn view(&self) -> ContactView<'_> {
+        self.interface.view(&self.state)
+    }
 }
 
 /// Accepts an increment that ends where `place` puts the points of the reference.
 pub(super) fn accept(
-    interface: &mut Interface,
+    interface: &mut Followed,
     from: &State,
     place: impl Fn(usize, Vec3) -> Vec3,
 ) -> State {
     let at = tried(interface, from, place);
-    interface.commit(&stage(from, &at));
+    let mut force = interface.interface.force(&interface.state);
+    interface.state = commit(&mut force, &stage(from, &at));
     at
 }
 
@@ -245,7 +280,7 @@ fn stage<'a>(from: &'a State, at: &'a State) -> Stage<'a> {
 
 /// Tries an increment that ends where `place` puts the points of the reference.
 pub(super) fn tried(
-    interface: &mut Interface,
+    interface: &mut Followed,
     from: &State,
     place: impl Fn(usize, Vec3) -> Vec3,
 ) -> State {
@@ -263,9 +298,10 @@ pub(super) fn tried(
     let stage = stage(from, &at);
     let mut out = Assembler::new(interface.dofs.count());
     out.reset(false);
-    interface.prepare(&stage);
-    interface.begin();
-    interface.assemble(&stage, &mut out).expect("forces");
+    let mut force = interface.interface.force(&interface.state);
+    force.prepare(&stage);
+    force.begin();
+    force.assemble(&stage, &mut out).expect("forces");
     at
 }
 
@@ -276,7 +312,7 @@ pub(super) fn start(interface: &Interface) -> State {
     }
 }
 
-pub(super) fn all(dim: usize) -> Vec<(String, Interface)> {
+pub(super) fn all(dim: usize) -> Vec<(String, Followed)> {
     let mut out = Vec::new();
     let convective = KinematicsModel::default;
     let pop = || KinematicsModel::Pop1995(Pop1995 {});
@@ -349,7 +385,7 @@ fn a_pair_that_turns_together_keeps_its_traction() {
 }
 
 /// All is as it was before a turn, and has turned.
-fn has_turned(interface: &Interface, before: &[PointHistory], turn: &Mat3, what: &str) {
+fn has_turned(interface: &Followed, before: &[PointHistory], turn: &Mat3, what: &str) {
     let largest = before.iter().fold(0.0_f64, |m, h| m.max(norm(h.shear)));
     let most = before.iter().fold(0.0_f64, |m, h| m.max(h.pressure));
     assert!(largest > 0.0 && most > 0.0, "{what}");

@@ -1,8 +1,12 @@
 //! What acts in the first instant of a motion.
 
+use std::sync::Arc;
+
+use super::conditions::Conditions;
 use super::energies::initial_energy;
+use super::history::History;
 use super::initial::TOUCHING;
-use super::parts::Interface;
+use super::parts::{Interface, InterfaceForce};
 use super::pass::evaluate_all;
 use super::scene::Wants;
 use crate::contact::response::Status;
@@ -20,18 +24,19 @@ pub struct Tried(Vec<(Status, f64, Vec3)>);
 /// increment, whose energy is told apart by the gaps that are noted here.
 pub fn add_initial_forces(
     interface: &mut Interface,
+    state: &mut History,
     stage: &Stage,
     residual: &mut [f64],
 ) -> Result<f64, StepFailure> {
     if !interface.schedule.active(stage.at.t) {
         return Ok(0.0);
     }
-    evaluate_initial(interface, stage);
+    evaluate_initial(&mut interface.force(state), stage);
     let evaluations = &interface.cache.trial;
-    if interface.view().unknown() && interface.laws.needs_normal_stiffness() {
+    if interface.view(state).unknown() && interface.laws.needs_normal_stiffness() {
         let points = evaluations.points.iter();
         let overlap = points.map(|e| if e.over { e.gap.min(0.0) } else { 0.0 });
-        interface.state.start.overlap = match interface.state.acting {
+        Arc::make_mut(&mut state.start).overlap = match state.acting {
             true => Vec::new(),
             false => overlap.collect(),
         };
@@ -44,8 +49,8 @@ pub fn add_initial_forces(
             residual[dof] += r;
         }
     }
-    let stored = initial_energy(interface.view(), &evaluations.points);
-    if interface.state.springs {
+    let stored = initial_energy(interface.view(state), &evaluations.points);
+    if state.springs {
         // How stiff and viscous what touches is bounds explicit increments from the first on.
         interface.cache.take_trial();
     }
@@ -53,7 +58,7 @@ pub fn add_initial_forces(
 }
 
 /// Takes what laws say at `stage.at` for the last evaluation: how stiff and viscous they are there bounds explicit increments.
-pub fn evaluate_laws(interface: &mut Interface, stage: &Stage) {
+pub fn evaluate_laws(interface: &mut InterfaceForce, stage: &Stage) {
     interface.cache.last.points.clear();
     if interface.schedule.active(stage.at.t) {
         evaluate_initial(interface, stage);
@@ -62,7 +67,7 @@ pub fn evaluate_laws(interface: &mut Interface, stage: &Stage) {
 }
 
 /// What laws say before anything is solved.
-fn evaluate_initial(interface: &mut Interface, stage: &Stage) {
+fn evaluate_initial(interface: &mut InterfaceForce, stage: &Stage) {
     interface.prepare(stage);
     interface.begin();
     let wants = Wants {
@@ -74,7 +79,7 @@ fn evaluate_initial(interface: &mut Interface, stage: &Stage) {
 }
 
 /// Whether points without mass overlap what they meet at `stage.at`, before the interface has ever acted.
-pub fn presses_light_points(interface: &mut Interface, stage: &Stage) -> bool {
+pub fn presses_light_points(interface: &mut InterfaceForce, stage: &Stage) -> bool {
     if !interface.schedule.active(stage.at.t) || interface.state.acting || interface.laws.tied {
         return false;
     }
@@ -89,9 +94,9 @@ pub fn presses_light_points(interface: &mut Interface, stage: &Stage) -> bool {
 }
 
 /// Takes the tractions of an attempt as those from which points without mass go on: what presses them has pressed them before the motion begins.
-pub fn adopt_light_tractions(interface: &mut Interface, tried: &Tried) {
-    let masses = interface.conditions.inertia.iter();
-    let all = interface.state.points.iter_mut().zip(&tried.0).zip(masses);
+pub fn adopt_light_tractions(state: &mut History, conditions: &Conditions, tried: &Tried) {
+    let masses = conditions.inertia.iter();
+    let all = state.points.iter_mut().zip(&tried.0).zip(masses);
     for ((history, &(status, pressure, shear)), _) in all.filter(|(_, m)| **m == 0.0) {
         history.status = status;
         history.pressure = pressure;
@@ -111,11 +116,11 @@ pub fn tried_tractions(interface: &Interface) -> Tried {
 
 /// Takes the tractions of an attempt as those of the last accepted state: what acts from the first instant of a motion. Where a point sticks, what the
 /// others carry is only being built up, and all is left as it is.
-pub fn adopt_tractions(interface: &mut Interface, tried: &Tried) {
+pub fn adopt_tractions(state: &mut History, tried: &Tried) {
     if tried.0.iter().any(|(status, ..)| *status == Status::Stick) {
         return;
     }
-    let all = interface.state.points.iter_mut().zip(&tried.0);
+    let all = state.points.iter_mut().zip(&tried.0);
     for (history, &(_, pressure, shear)) in all.filter(|(_, t)| t.0 == Status::Slip) {
         history.pressure = pressure;
         history.shear = shear;

@@ -1,4 +1,4 @@
-//! An interface with all that it knows: what it is, what it has been through, and what it works with.
+//! An interface: what it is, and what it works with.
 
 use super::attempt::Attempt;
 use super::cache::Cache;
@@ -8,19 +8,32 @@ use super::history::History;
 use super::input::InterfaceInput;
 use super::view::ContactView;
 
-/// An interface, and what it knows.
+/// An interface without what it has been through.
 #[derive(Debug, Clone)]
 pub struct Interface {
     /// What it is.
     pub definition: InterfaceDefinition,
-    /// What accepted increments have left; all that a checkpoint has to hold.
-    pub state: History,
-    /// The attempt at the next one.
+    /// The attempt at the next increment.
     pub attempt: Attempt,
     /// What holds in the attempt.
     pub conditions: Conditions,
     /// What can be made again.
     pub cache: Cache,
+}
+
+/// An interface as a force, which goes on from a history.
+#[derive(Debug)]
+pub struct InterfaceForce<'a> {
+    /// What it is.
+    pub definition: &'a InterfaceDefinition,
+    /// What accepted increments have left.
+    pub state: &'a History,
+    /// The attempt at the next one.
+    pub attempt: &'a mut Attempt,
+    /// What holds in the attempt.
+    pub conditions: &'a Conditions,
+    /// What can be made again.
+    pub cache: &'a mut Cache,
 }
 
 impl std::ops::Deref for Interface {
@@ -31,12 +44,19 @@ impl std::ops::Deref for Interface {
     }
 }
 
+impl std::ops::Deref for InterfaceForce<'_> {
+    type Target = InterfaceDefinition;
+
+    fn deref(&self) -> &InterfaceDefinition {
+        self.definition
+    }
+}
+
 impl Interface {
-    /// One that nothing has happened to yet.
+    /// One with which nothing has been tried yet.
     pub fn new(definition: InterfaceDefinition) -> Self {
         Interface {
             definition,
-            state: History::default(),
             attempt: Attempt::default(),
             conditions: Conditions::default(),
             cache: Cache::default(),
@@ -44,42 +64,64 @@ impl Interface {
     }
 
     /// It as those see it who only look.
-    pub fn view(&self) -> ContactView<'_> {
+    pub fn view<'a>(&'a self, state: &'a History) -> ContactView<'a> {
         ContactView {
             definition: &self.definition,
-            state: &self.state,
+            state,
         }
     }
 
     /// It as evaluations see it.
-    pub(in crate::contact) fn input(&self) -> InterfaceInput<'_> {
+    pub(in crate::contact) fn input<'a>(&'a self, state: &'a History) -> InterfaceInput<'a> {
         InterfaceInput {
-            contact: self.view(),
+            contact: self.view(state),
             attempt: &self.attempt,
             conditions: &self.conditions,
+        }
+    }
+
+    /// It as a force that goes on from a history.
+    pub fn force<'a>(&'a mut self, state: &'a History) -> InterfaceForce<'a> {
+        InterfaceForce {
+            definition: &self.definition,
+            state,
+            attempt: &mut self.attempt,
+            conditions: &self.conditions,
+            cache: &mut self.cache,
+        }
+    }
+}
+
+impl InterfaceForce<'_> {
+    /// It as those see it who only look.
+    pub fn view(&self) -> ContactView<'_> {
+        ContactView {
+            definition: self.definition,
+            state: self.state,
+        }
+    }
+
+    /// It as evaluations see it.
+    pub(super) fn input(&self) -> InterfaceInput<'_> {
+        InterfaceInput {
+            contact: self.view(),
+            attempt: self.attempt,
+            conditions: self.conditions,
         }
     }
 
     /// It as evaluations see it, and what they work with.
     pub(super) fn parts(&mut self) -> (InterfaceInput<'_>, &mut Cache) {
         let contact = ContactView {
-            definition: &self.definition,
-            state: &self.state,
+            definition: self.definition,
+            state: self.state,
         };
         let input = InterfaceInput {
             contact,
-            attempt: &self.attempt,
-            conditions: &self.conditions,
+            attempt: self.attempt,
+            conditions: self.conditions,
         };
-        (input, &mut self.cache)
-    }
-
-    /// Makes room for all points, and begins an attempt if there is none.
-    pub(super) fn ready(&mut self) {
-        self.state.fit(self.definition.points.len());
-        if self.attempt.multipliers.len() != self.definition.points.len() {
-            self.begin_attempt();
-        }
+        (input, self.cache)
     }
 
     /// An attempt from the committed history.

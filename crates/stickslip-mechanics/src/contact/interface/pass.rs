@@ -7,7 +7,7 @@ use super::evaluate::evaluate_points;
 use super::evaluation::{Batch, CHUNK, Evaluation, Evaluations};
 use super::faces::integrate_faces;
 use super::input::InterfaceInput;
-use super::parts::Interface;
+use super::parts::InterfaceForce;
 use super::scene::{LawQuery, Scene, Wants};
 use super::user_laws::ask;
 use crate::math::scale;
@@ -78,12 +78,12 @@ fn move_to(interface: InterfaceInput, geometry: &mut Geometry, stage: &Stage, wa
 }
 
 /// Gaps of all points at a stage, without touching the history; infinite where nothing lies opposite.
-pub fn gaps_at(interface: &mut Interface, stage: &Stage) -> Vec<f64> {
+pub fn gaps_at(interface: &mut InterfaceForce, stage: &Stage) -> Vec<f64> {
     gaps_with(interface, stage, Wants::default())
 }
 
 /// The same of all points, those too that do not take part.
-pub(super) fn all_gaps_at(interface: &mut Interface, stage: &Stage) -> Vec<f64> {
+pub(super) fn all_gaps_at(interface: &mut InterfaceForce, stage: &Stage) -> Vec<f64> {
     let wants = Wants {
         everywhere: true,
         ..Wants::default()
@@ -91,7 +91,7 @@ pub(super) fn all_gaps_at(interface: &mut Interface, stage: &Stage) -> Vec<f64> 
     gaps_with(interface, stage, wants)
 }
 
-fn gaps_with(interface: &mut Interface, stage: &Stage, wants: Wants) -> Vec<f64> {
+fn gaps_with(interface: &mut InterfaceForce, stage: &Stage, wants: Wants) -> Vec<f64> {
     interface.prepare(stage);
     interface.begin();
     let (input, cache) = interface.parts();

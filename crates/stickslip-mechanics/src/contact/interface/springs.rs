@@ -1,7 +1,10 @@
 //! Explicit dynamics: springs in place of multipliers, and how stiff they are; ties that hold exactly.
 
+use std::sync::Arc;
+
 use super::commit::sheared;
 use super::energies::stored_energy;
+use super::history::History;
 use super::parts::Interface;
 use super::stiffness::tangential_stiffness;
 use crate::contact::enforcement::Multipliers;
@@ -39,19 +42,19 @@ pub fn pull_ties(
 ///
 /// What presses already goes on pressing: a spring starts where its force is that of the multiplier it replaces. The energy `[J]` that this
 /// puts into the springs is returned.
-pub fn use_springs(interface: &mut Interface, springs: bool) -> f64 {
+pub fn use_springs(interface: &mut Interface, state: &mut History, springs: bool) -> f64 {
     // Every step says anew how it is integrated.
     interface.conditions.impulses = false;
-    if interface.state.springs == springs {
+    if state.springs == springs {
         return 0.0;
     }
-    let before = stored_energy(interface.view());
-    interface.state.springs = springs;
-    interface.state.rest.clear();
+    let before = stored_energy(interface.view(state));
+    state.springs = springs;
+    state.rest = Arc::default();
     let multipliers = interface.laws.enforcement.as_dyn().multipliers() != Multipliers::None;
     if springs && multipliers && interface.laws.needs_normal_stiffness() {
-        let exact = interface.view().holds_exactly();
-        let points = interface.points.iter().zip(&interface.state.points);
+        let exact = interface.view(state).holds_exactly();
+        let points = interface.points.iter().zip(&state.points);
         let rest = points
             .map(|(p, h)| {
                 if exact && h.gap.is_finite() {
@@ -63,16 +66,16 @@ pub fn use_springs(interface: &mut Interface, springs: bool) -> f64 {
                 }
             })
             .collect();
-        interface.state.rest = rest;
+        state.rest = Arc::new(rest);
     }
     // Springs of stick come or go with the shear that there is; what holds exactly has none.
-    let input = interface.input();
+    let input = interface.input(state);
     let points = input.state.points.iter().zip(&input.points);
     let sheared: Vec<f64> = points
         .map(|(h, p)| sheared(input, h.shear, tangential_stiffness(input, p.stiffness)))
         .collect();
-    let points = interface.state.points.iter_mut().zip(sheared);
+    let points = state.points.iter_mut().zip(sheared);
     points.for_each(|(h, sheared)| h.sheared = sheared);
-    interface.state.energy.stored = stored_energy(interface.view());
-    interface.state.energy.stored - before
+    state.energy.stored = stored_energy(interface.view(state));
+    state.energy.stored - before
 }

@@ -1,11 +1,13 @@
 //! What points of an interface did in an attempt that failed.
 
-use super::definition::Primary;
+use super::attempt::Attempt;
+use super::cache::Cache;
+use super::definition::{InterfaceDefinition, Primary};
 use super::parts::Interface;
 use crate::contact::law::normal::NormalLaw;
 use crate::contact::response::Status;
 use crate::math::{add, distance, norm};
-use crate::system::{Culprit, Evidence};
+use crate::system::{Culprit, Evidence, Tally};
 
 /// Most culprits of one interface.
 const MOST: usize = 10;
@@ -19,6 +21,44 @@ const HALVINGS: usize = 40;
 /// Ratio of slopes that counts as a kink.
 const KINK: f64 = 4.0;
 
+/// An interface in the present attempt.
+#[derive(Clone, Copy)]
+pub(in crate::contact) struct LastAttempt<'a> {
+    pub interface: &'a InterfaceDefinition,
+    pub attempt: &'a Attempt,
+    pub cache: &'a Cache,
+}
+
+impl<'a> From<&'a Interface> for LastAttempt<'a> {
+    fn from(interface: &'a Interface) -> Self {
+        LastAttempt {
+            interface: &interface.definition,
+            attempt: &interface.attempt,
+            cache: &interface.cache,
+        }
+    }
+}
+
+impl LastAttempt<'_> {
+    /// Its points by status.
+    pub fn tally(self) -> Tally {
+        let mut tally = Tally {
+            changed: self.attempt.changed,
+            ..Tally::default()
+        };
+        // Tied surfaces neither stick nor slip.
+        let tied = self.interface.laws.tied;
+        for e in self.cache.last.points.iter().filter(|_| !tied) {
+            match e.response.status {
+                Status::Open => tally.open += 1,
+                Status::Stick => tally.stick += 1,
+                Status::Slip => tally.slip += 1,
+            }
+        }
+        tally
+    }
+}
+
 impl Status {
     /// In a word.
     pub fn word(self) -> &'static str {
@@ -31,14 +71,22 @@ impl Status {
 }
 
 /// A point as a place to look at.
-pub(super) fn culprit(interface: &Interface, i: usize) -> Culprit {
-    said(evidence(interface, i))
+pub(super) fn culprit(attempted: LastAttempt, i: usize) -> Culprit {
+    said(evidence_of(attempted, i))
 }
 
 /// What a point did in the present attempt.
 pub fn evidence(interface: &Interface, i: usize) -> Evidence {
+    evidence_of(interface.into(), i)
+}
+
+fn evidence_of(attempted: LastAttempt, i: usize) -> Evidence {
+    let LastAttempt {
+        interface,
+        attempt,
+        cache,
+    } = attempted;
     let point = &interface.points[i];
-    let (attempt, cache) = (&interface.attempt, &interface.cache);
     let mut evidence = Evidence {
         interface: interface.name.clone(),
         node: point.node().map(|one| interface.node_ids[one]),
@@ -77,9 +125,9 @@ pub fn evidence(interface: &Interface, i: usize) -> Evidence {
 }
 
 /// The points that changed status most often in this attempt, then those that slid farthest or lie at a kink of the normal law.
-pub(super) fn culprits(interface: &Interface) -> Vec<Culprit> {
-    let mut all: Vec<Evidence> = (0..interface.cache.last.points.len())
-        .map(|i| evidence(interface, i))
+pub(super) fn culprits(attempted: LastAttempt) -> Vec<Culprit> {
+    let mut all: Vec<Evidence> = (0..attempted.cache.last.points.len())
+        .map(|i| evidence_of(attempted, i))
         .filter(|e| {
             let slid = e.facet > 0.0 && e.slip > FAR * e.facet;
             e.flips > 0 || e.left > 0 || e.kink > KINK || slid

@@ -3,7 +3,9 @@
 use super::Initial;
 use super::attempt::Flips;
 use super::definition::{InterfaceDefinition, Primary};
+use super::history::History;
 use super::parts::Interface;
+use super::parts::InterfaceForce;
 use super::search::Search;
 use crate::contact::bounds::Bounds;
 use crate::contact::enforcement::{EnforcementModel, Penalty};
@@ -228,6 +230,8 @@ fn the_tangent_is_that_of_the_force() {
             let count = interface.dofs.count();
             let from = moved(&interface, 0.0, 1e-3);
             let mut at = moved(&interface, 1.0, 1e-3);
+            let history = History::new(interface.points.len());
+            let mut interface = interface.force(&history);
             let mut out = Assembler::new(count);
             let mut force = |at: &State, tangent: bool, surrogate: bool| {
                 let stage = Stage {
@@ -334,6 +338,8 @@ fn numbers_of_facets_make_no_difference() {
             };
             let mut out = Assembler::new(interface.dofs.count());
             out.reset(false);
+            let history = History::new(interface.points.len());
+            let mut interface = interface.force(&history);
             interface.prepare(&stage);
             interface.assemble(&stage, &mut out).expect("forces");
             out.residual
@@ -359,8 +365,10 @@ fn tentative_evaluations_leave_no_trace_until_they_are_settled() {
         });
         let du = moved(&plain, 4.0, 1e-4).u;
         let course = |interface: &mut Interface, tentative: bool, given_up: bool| {
+            let history = History::new(interface.points.len());
+            let interface = &mut interface.force(&history);
             let mut out = Assembler::new(interface.dofs.count());
-            let mut evaluate = |interface: &mut Interface, at, tangent, tentative| {
+            let mut evaluate = |interface: &mut InterfaceForce, at, tangent, tentative| {
                 let stage = Stage {
                     from: &from,
                     at,
@@ -434,7 +442,9 @@ fn points_pass_edges_a_few_times_only() {
         };
         let [on, off] = [0.0, 2.0].map(|way| state(&interface, way));
         let mut out = Assembler::new(dofs.count());
-        let mut passes = |interface: &mut Interface, at: &State| {
+        let history = History::new(interface.points.len());
+        let mut interface = interface.force(&history);
+        let mut passes = |interface: &mut InterfaceForce, at: &State| {
             let stage = Stage {
                 from: &on,
                 at,

@@ -1,8 +1,8 @@
 //! How fast the springs and dashpots of an interface let masses swing: what bounds explicit increments.
 
-use crate::contact::interface::Interface;
 use crate::contact::interface::sides::weights_of;
 use crate::contact::interface::stiffness::spring;
+use crate::contact::interface::{History, Interface};
 use crate::system::Links;
 
 /// Penetration of a point about to touch, relative to the cell beneath.
@@ -11,14 +11,19 @@ const TOUCHED: f64 = 1e-6;
 /// An upper bound of the squared frequency `[1/s²]` that the springs of the interface have with these inverse masses by dof: by the
 /// rows of its stiffness (Gershgorin). Springs that are not in contact count as well where they have a stiffness of their own. For
 /// a rigid body the springs at all its points add up, each with what the body gives way there, `1/m + |arm|²/I` as inverse mass.
-pub fn highest_frequency(interface: &Interface, inverse_mass: &[f64], links: &Links) -> f64 {
-    if interface.view().holds_exactly() {
+pub fn highest_frequency(
+    interface: &Interface,
+    state: &History,
+    inverse_mass: &[f64],
+    links: &Links,
+) -> f64 {
+    if interface.view(state).holds_exactly() {
         return 0.0;
     }
     let inverse = |node: usize| inverse_mass[interface.dofs.of(node, 0)];
     highest_eigenvalue(
         interface,
-        &|i| stiffest(interface, i, links),
+        &|i| stiffest(interface, state, i, links),
         &inverse,
         links,
     )
@@ -26,8 +31,13 @@ pub fn highest_frequency(interface: &Interface, inverse_mass: &[f64], links: &Li
 
 /// The same of compliant laws and springs alone, as they were pressed in the last evaluation, with inverse masses by point of the mesh: what is
 /// held by multipliers has no frequency.
-pub fn pressed_frequency(interface: &Interface, inverse_mass: &[f64], links: &Links) -> f64 {
-    if interface.view().unknown() && interface.laws.needs_normal_stiffness() {
+pub fn pressed_frequency(
+    interface: &Interface,
+    state: &History,
+    inverse_mass: &[f64],
+    links: &Links,
+) -> f64 {
+    if interface.view(state).unknown() && interface.laws.needs_normal_stiffness() {
         return 0.0;
     }
     let last = &interface.cache.last.points;
@@ -65,11 +75,11 @@ pub fn highest_rate(interface: &Interface, inverse_mass: &[f64], links: &Links) 
 }
 
 /// The spring of a point `[Pa/m]`: what there is, and what there will be when it touches.
-fn stiffest(interface: &Interface, i: usize, links: &Links) -> f64 {
+fn stiffest(interface: &Interface, state: &History, i: usize, links: &Links) -> f64 {
     let point = &interface.points[i];
     let own = if interface.laws.needs_normal_stiffness() {
         spring(
-            interface.input(),
+            interface.input(state),
             interface.laws.enforcement.as_dyn().normal(),
             point.stiffness,
         )

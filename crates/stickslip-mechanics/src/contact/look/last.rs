@@ -1,21 +1,24 @@
 //! What the last evaluation says: of the attempt at hand, not of what has been accepted.
 
-use crate::contact::interface::Interface;
 use crate::contact::interface::initial::TOUCHING;
+use crate::contact::interface::symptoms::LastAttempt;
+use crate::contact::interface::{History, Interface};
 use crate::contact::response::Status;
+use crate::system::Tally;
 
 use crate::contact::interface::worn::rubbed;
 
 /// How many points have another status in the present attempt than at the last accepted state.
-pub fn switched(interface: &Interface) -> usize {
-    let points = interface
-        .state
-        .points
-        .iter()
-        .zip(&interface.cache.last.points);
+pub fn switched(interface: &Interface, state: &History) -> usize {
+    let points = state.points.iter().zip(&interface.cache.last.points);
     points
         .filter(|(h, e)| h.status != e.response.status)
         .count()
+}
+
+/// The points by status.
+pub fn tally(interface: &Interface) -> Tally {
+    LastAttempt::from(interface).tally()
 }
 
 /// Whether a point touched or was near at the last evaluation, by the height of the cell beneath it.
@@ -33,8 +36,8 @@ pub fn slid(interface: &Interface) -> f64 {
 }
 
 /// Statuses at the last evaluation, or at the last accepted state where there is none.
-pub fn statuses(interface: &Interface) -> Vec<Status> {
-    let (history, cache) = (&interface.state, &interface.cache);
+pub fn statuses(interface: &Interface, history: &History) -> Vec<Status> {
+    let cache = &interface.cache;
     match cache.last.points.is_empty() {
         true => history.points.iter().map(|h| h.status).collect(),
         false => {

@@ -31,7 +31,7 @@ pub use between::{Between, between, opening, overlap_between};
 pub use excluded::{excluded_gaps, overlooked};
 pub use fields::{fields, rubbing};
 pub use frequency::{highest_frequency, highest_rate, pressed_frequency};
-pub use last::{slid, statuses, switched, touches};
+pub use last::{slid, statuses, switched, tally, touches};
 pub use normals::{normals, outward};
 pub use opposite_sheet::opposite_sheet;
 pub use oscillation::{neighbours, oscillation};

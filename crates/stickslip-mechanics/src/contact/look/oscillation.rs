@@ -197,7 +197,7 @@ mod tests {
     use super::*;
     use crate::contact::interface::history::PointHistory;
     use crate::contact::interface::tests::sample;
-    use crate::contact::interface::{Interface, InterfaceDefinition};
+    use crate::contact::interface::{History, Interface, InterfaceDefinition};
     use crate::contact::kinematics::KinematicsModel;
     use crate::shape::ElementKind;
 
@@ -244,9 +244,10 @@ mod tests {
             pressure: pressure(x[0], x[1], k / SIDE + k % SIDE),
             ..PointHistory::default()
         });
-        interface.state.points = history.collect();
+        let mut state = History::default();
+        state.points = history.collect();
         interface.definition.reference = reference;
-        oscillation(interface.view())
+        oscillation(interface.view(&state))
     }
 
     #[test]

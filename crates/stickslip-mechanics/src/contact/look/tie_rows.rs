@@ -1,6 +1,6 @@
 //! What an explicit increment holds exactly of a tie.
 
-use crate::contact::interface::Interface;
+use crate::contact::interface::{History, Interface};
 use crate::math::norm;
 
 /// One direction in which an explicit increment holds a point of a tie exactly.
@@ -21,9 +21,9 @@ pub struct TieRow {
 }
 
 /// What is to be held exactly, as it was at the last evaluation.
-pub fn tie_rows(interface: &Interface) -> Vec<TieRow> {
+pub fn tie_rows(interface: &Interface, state: &History) -> Vec<TieRow> {
     let mut out = Vec::new();
-    if !interface.view().holds_exactly() {
+    if !interface.view(state).holds_exactly() {
         return out;
     }
     let largest = interface

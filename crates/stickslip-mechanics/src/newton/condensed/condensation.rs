@@ -495,7 +495,7 @@ impl Condensation {
         &self,
         mut swept: Vec<Vec<Vec<f64>>>,
         at: &[Vec<f64>],
-        all: &mut [Vec<f64>],
+        all: &mut [&mut Vec<f64>],
     ) -> Result<(), LinearError> {
         let columns = at.len();
         let found: Result<Vec<Vec<f64>>, LinearError> = (0..self.parts.len())

@@ -66,8 +66,6 @@ fn settle(
 ) -> Result<bool, StepFailure> {
     let (mut before, mut last): (Vec<Found>, Vec<Found>) = Default::default();
     let mut done = false;
-    // Without a problem before nothing is settled, even where nothing touches: laws that are hardly touched say less than they will where bodies have come.
-    let mut first = true;
     let mut residuals = Vec::new();
     let mut relaxation = Relaxation::default();
     while residuals.len() < attempt.settings.max_iterations && !stalled(&residuals) {
@@ -82,8 +80,10 @@ fn settle(
         let Some(next) = pass.solve((points, &last), columns, &mut relaxation, account)? else {
             return Ok(false);
         };
-        done = !std::mem::take(&mut first) && settled(&last, &next);
-        before = std::mem::replace(&mut last, next);
+        // Without a problem before nothing is settled, even where nothing touches: laws that are hardly touched say less than they will where bodies have come.
+        done = residuals.len() > 1 && settled(&last, &next);
+        before = last;
+        last = next;
         if done {
             break;
         }

@@ -181,12 +181,13 @@ fn tried(view: &View, trial: &Trial, attempt: usize, counters: Counters) -> Vec<
 /// What contact holds in the state of the last evaluation.
 fn contact_rows(view: &View, t: f64) -> Vec<Row> {
     let mut out = Vec::new();
-    for interface in &view.contact.interfaces {
+    let histories = &view.frame.contacts.interfaces;
+    for (interface, history) in view.contact.interfaces.iter().zip(histories) {
         if !interface.schedule.active(t) {
             continue;
         }
         let mut opposite = Opposite::new(interface, t);
-        for (i, status) in look::statuses(interface).into_iter().enumerate() {
+        for (i, status) in look::statuses(interface, history).into_iter().enumerate() {
             if status != Status::Open {
                 let normal = look::evidence(interface, i).normal;
                 rows(interface, &mut opposite, (i, normal, status), &mut out);

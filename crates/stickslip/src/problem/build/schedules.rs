@@ -195,10 +195,11 @@ impl Timeline {
     pub fn spring(&self, problem: &Problem, name: &str, amplitude: Option<&str>) -> Schedule {
         let table = self.table(problem, amplitude);
         let active = coupled(problem, name);
-        let mut sudden = problem.step.iter().map(|s| s.dynamic.is_some());
-        let mut first = true;
+        let first = problem.step.iter().position(|s| s.dynamic.is_none());
+        let steps = problem.step.iter().enumerate();
+        let mut sudden = steps.map(|(k, s)| s.dynamic.is_some() || Some(k) == first);
         self.schedule(&active, |on, factor, _| {
-            let at_once = sudden.next().unwrap_or(false) || std::mem::take(&mut first);
+            let at_once = sudden.next().unwrap_or(false);
             match (on, &table) {
                 (true, Some(table)) => Course::Table(table.clone()),
                 (true, None) => Course::Ramp(if at_once { 1.0 } else { factor }, 1.0),

@@ -8,7 +8,7 @@ use crate::linear::{LinearError, Matrix};
 use crate::math::vector::dot;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
-use crate::model::frame::Frame;
+use crate::model::frame::{ContactMemory, Frame};
 use crate::model::ledger::Flow;
 use crate::newton::condensed::{Amplitudes, CondensedBulk};
 use crate::newton::describe;
@@ -24,7 +24,7 @@ impl Solver {
     /// Tries a quasi-static increment on the candidates of bodies that were condensed.
     pub fn attempt_condensed(
         &mut self,
-        model: &Model,
+        (model, frame): (&Model, &Frame),
         contact: &mut Contact,
         external: Vec<f64>,
         constraints: Constraints,
@@ -51,9 +51,11 @@ impl Solver {
             state: from,
             carried,
             course,
+            ahead,
             found,
             ..
         } = condensed;
+        let contacts: &ContactMemory = ahead.as_ref().unwrap_or(&frame.contacts);
         let load = patterns.load(&amplitudes, condensation.size());
         newton.statistics.seconds_solve += started.elapsed().as_secs_f64();
         let scale = external.iter().map(|e| e * e).sum::<f64>().sqrt();
@@ -75,11 +77,12 @@ impl Solver {
         let mut bulk =
             CondensedBulk::new((condensation, reduced), diagonal, load, base, guess, scale);
         let fixed = constraints.fixed.clone();
+        let mut forces = contact.forces(contacts);
         let converged = Iteration {
             newton,
             seen,
             model,
-            forces: floating.with(contact.forces()),
+            forces: floating.with(forces.all()),
             bulk: &mut bulk,
             rate: None,
             frames: None,
@@ -90,7 +93,7 @@ impl Solver {
         let dofs = condensation.dofs.iter();
         check_change(model, dofs.map(|&d| (at.u[d], from.u[d])))?;
         check_candidates(contact)?;
-        check_way(model, contact, [from, &at], &fixed)?;
+        check_way(model, contact.views_of(contacts), [from, &at], &fixed)?;
         Ok(Accepted {
             contact: converged.contact.clone(),
             external,
@@ -135,7 +138,7 @@ impl Solver {
             return;
         };
         let (mut swept, mut at, mut all) = (Vec::new(), Vec::new(), Vec::new());
-        let mut owners = Vec::new();
+        let mut internal = Vec::new();
         for (found, accepted) in pending {
             let Condensed {
                 patterns,
@@ -144,18 +147,16 @@ impl Solver {
             } = condensed;
             swept.push(patterns.interior(&found.amplitudes, condensation));
             at.push(found.displacements.clone());
-            all.push(std::mem::take(&mut accepted.state.u));
-            owners.push(accepted);
+            all.push(&mut accepted.state.u);
+            internal.push(&mut accepted.internal);
         }
-        self.seen.tell(&Work::Recovering(owners.len()));
+        self.seen.tell(&Work::Recovering(all.len()));
         let recovered = condensed.condensation.recover(swept, &at, &mut all);
         // Whoever completes the increments is told.
         self.condenser.broken = recovered.map_err(describe).err();
-        let states: Vec<&[f64]> = all.iter().map(Vec::as_slice).collect();
-        let internal = self.stiffness.mul_all(&states);
-        for ((accepted, u), internal) in owners.into_iter().zip(all).zip(internal) {
-            accepted.state.u = u;
-            accepted.internal = Some(internal);
+        let states: Vec<&[f64]> = all.iter().map(|u| u.as_slice()).collect();
+        for (internal, found) in internal.into_iter().zip(self.stiffness.mul_all(&states)) {
+            *internal = Some(found);
         }
         self.newton.statistics.seconds_recover += started.elapsed().as_secs_f64();
     }
@@ -163,10 +164,11 @@ impl Solver {
     /// Completes a recovered increment by its forces, and checks that they balance.
     pub fn complete(
         &mut self,
-        model: &Model,
-        frame: &Frame,
+        (model, frame): (&Model, &Frame),
         contact: &Contact,
-        (found, accepted): (&Candidates, &mut Accepted),
+        after: &ContactMemory,
+        found: &Candidates,
+        accepted: &mut Accepted,
     ) -> Result<(), StepFailure> {
         if let Some(broken) = self.condenser.broken() {
             return Err(broken.clone());
@@ -198,7 +200,7 @@ impl Solver {
         };
         let largest = &mut self.condenser.largest_forces;
         recovered.check(model.settings.tolerance, largest)?;
-        for (interface, view) in contact.interfaces.iter().zip(contact.views(frame)) {
+        for (interface, view) in contact.interfaces.iter().zip(contact.views_of(after)) {
             let overlooked = look::overlooked(view, &interface.conditions, u, t);
             if overlooked > 0 {
                 return Err(StepFailure::new(

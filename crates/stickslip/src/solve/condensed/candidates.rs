@@ -46,11 +46,14 @@ impl Solver {
                 span: [step.start, step.end],
             };
             let turns = |node: &usize| model.corotations.of_point(*node).is_some();
-            for interface in &mut contact.interfaces {
+            let histories = &frame.contacts.interfaces;
+            for (interface, history) in contact.interfaces.iter_mut().zip(histories) {
                 match interface.nodes.iter().any(turns) {
                     // In turn all of its points come round.
                     true => include_all(interface, &mut kept),
-                    false => restrict_to_candidates(interface, &frame.state.u, range, &mut kept),
+                    false => {
+                        restrict_to_candidates(interface, history, &frame.state.u, range, &mut kept)
+                    }
                 }
             }
         }

@@ -69,6 +69,7 @@ impl Solver {
             state: frame.state.clone(),
             carried,
             course: Course::default(),
+            ahead: None,
             found: None,
         });
     }

@@ -93,11 +93,12 @@ impl Solver {
             origin.scale,
         );
         let fixed = task.constraints.fixed.clone();
+        let mut forces = contact.forces(task.contacts);
         let converged = Iteration {
             newton,
             seen: &mut self.seen,
             model,
-            forces: contact.forces(),
+            forces: forces.all(),
             bulk: &mut bulk,
             rate: task.rate,
             frames: task.frames,
@@ -106,11 +107,11 @@ impl Solver {
         let started = Instant::now();
         let mut moved = condensation.gather(&at.u);
         moved.iter_mut().zip(&base).for_each(|(m, b)| *m -= b);
-        let mut all = vec![vec![0.0; origin.at.len()]];
+        let mut all = vec![0.0; origin.at.len()];
         condensation
-            .recover(vec![interior], &[moved], &mut all)
+            .recover(vec![interior], &[moved], &mut [&mut all])
             .map_err(describe)?;
-        let moved = all.swap_remove(0);
+        let moved = all;
         for i in 0..moved.len() {
             if !fixed[i] {
                 at.u[i] = origin.at[i] + moved[i];
