@@ -29,7 +29,7 @@ pub fn audit(folder: &Path) -> Result<Report, String> {
     };
     let mut pairs = Vec::new();
     for (name, table) in case.named("interface") {
-        match Pair::new(case, mesh, (name, table), results.exchanged(name)) {
+        match Pair::new(case, mesh, name, table, results.exchanged(name)) {
             Some(pair) => pairs.push(pair),
             None => report.skip(format!(
                 "interface {name}: a set that only the mesh file knows"

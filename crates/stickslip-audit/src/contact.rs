@@ -156,24 +156,22 @@ pub fn check(results: &Results, pair: &Pair, scale: &Scale, report: &mut Report)
             let turn = turned(results, i);
             // In explicit steps it is springs that hold them.
             let springs = results.case.steps[step].explicit();
-            let hard = laws.normal.0 == "unilateral" && !springs;
+            let hard = laws.normal.name == "unilateral" && !springs;
             if hard && !pair.damped && !pair.two_sided {
                 let depths = nodes.iter().filter(|n| now[**n].pressure > 0.0);
                 let deepest = depths.fold(0.0_f64, |m, n| m.max(-now[*n].gap));
                 report.note("yielding", name, deepest / scale.approach, state.t);
             }
+            let increment = Increment {
+                t: state.t,
+                dt,
+                inertia,
+                turn,
+                springs,
+            };
             for node in &nodes {
                 let last = before.as_ref().map(|b| b[*node]);
-                one(
-                    &laws,
-                    &now[*node],
-                    last,
-                    (dt, inertia, turn, springs),
-                    pair,
-                    scale,
-                    state.t,
-                    report,
-                );
+                one(&laws, &now[*node], last, &increment, pair, scale, report);
             }
         }
         old = Some((state, now));
@@ -186,6 +184,13 @@ pub fn check(results: &Results, pair: &Pair, scale: &Scale, report: &mut Report)
             return;
         };
         let springs = results.case.steps[step].explicit();
+        let increment = Increment {
+            t: state.t,
+            dt: results.at("DT", state),
+            inertia: true,
+            turn: 0.0,
+            springs,
+        };
         for row in 0..table.rows() {
             let of = |head: &str| table.at(head, row);
             let point = Point {
@@ -195,16 +200,7 @@ pub fn check(results: &Results, pair: &Pair, scale: &Scale, report: &mut Report)
                 slip: [of("CSLIP1"), of("CSLIP2")],
                 status: of("CSTATUS"),
             };
-            one(
-                &laws,
-                &point,
-                None,
-                (results.at("DT", state), true, 0.0, springs),
-                pair,
-                scale,
-                state.t,
-                report,
-            );
+            one(&laws, &point, None, &increment, pair, scale, report);
         }
     }
 }
@@ -226,21 +222,36 @@ fn turned(results: &Results, i: usize) -> f64 {
     turns.fold(0.0, f64::max)
 }
 
+/// An increment, as far as laws depend on it.
+struct Increment {
+    /// Its end, and its length.
+    t: f64,
+    dt: f64,
+    /// Masses have a part in it.
+    inertia: bool,
+    /// How far surfaces may have turned.
+    turn: f64,
+    /// Springs press.
+    springs: bool,
+}
+
 /// One point at one time. Without a state before only the bounds that hold at any speed are asked. Springs press where surfaces are about to part, as far as they give way.
-#[expect(
-    clippy::too_many_arguments,
-    reason = "one formula after the other, all of one point"
-)]
 fn one(
     laws: &Laws,
     point: &Point,
     last: Option<Point>,
-    (dt, inertia, turn, springs): (f64, bool, f64, bool),
+    increment: &Increment,
     pair: &Pair,
     scale: &Scale,
-    t: f64,
     report: &mut Report,
 ) {
+    let Increment {
+        t,
+        dt,
+        inertia,
+        turn,
+        springs,
+    } = *increment;
     let name = pair.name.as_str();
     if point.pressure.is_nan() {
         return;
@@ -252,7 +263,7 @@ fn one(
         true => point.gap,
         false => f64::MAX,
     };
-    if laws.normal.0 == "unilateral" {
+    if laws.normal.name == "unilateral" {
         // A dashpot may press before surfaces touch.
         let product = p / scale.pressure * open.max(0.0) / scale.approach;
         if !pair.damped && !pair.two_sided && !springs {
@@ -467,6 +478,7 @@ fn moments(results: &Results, pairs: &[Pair], largest: f64, report: &mut Report)
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::law::Law;
 
     /// In motion any speed may be, also that at which a law of a quasi-static step has its least limit.
     #[test]
@@ -475,8 +487,11 @@ mod tests {
         let table: toml::Table = text.parse().unwrap_or_default();
         let none = toml::Table::new();
         let laws = Laws {
-            normal: ("linear", &none),
-            friction: crate::case::kind(&table, "friction").unwrap_or(("none", &none)),
+            normal: Law {
+                name: "linear",
+                keys: &none,
+            },
+            friction: Law::of(&table, "friction").expect("it is given"),
             epsilon: None,
         };
         let scale = Scale {
@@ -495,14 +510,20 @@ mod tests {
             };
             let pair = Pair::bare("joint");
             let before = Some(point);
+            let increment = Increment {
+                t: 1.0,
+                dt: 1.1e-7,
+                inertia: true,
+                turn: 0.0,
+                springs: false,
+            };
             one(
                 &laws,
                 &point,
                 before,
-                (1.1e-7, true, 0.0, false),
+                &increment,
                 &pair,
                 &scale,
-                1.0,
                 &mut report,
             );
             let figure = report
@@ -524,8 +545,11 @@ mod tests {
             .unwrap_or_default();
         let none = toml::Table::new();
         let laws = Laws {
-            normal: ("linear", &none),
-            friction: crate::case::kind(&table, "friction").unwrap_or(("none", &none)),
+            normal: Law {
+                name: "linear",
+                keys: &none,
+            },
+            friction: Law::of(&table, "friction").expect("it is given"),
             epsilon: Some(7.24e-4),
         };
         let scale = Scale {
@@ -544,17 +568,16 @@ mod tests {
         let (before, now) = (at([3.7105e-3, -7.562e-4]), at([3.8293e-3, -7.243e-4]));
         let judge = |turn: f64| {
             let mut report = Report::default();
-            let (pair, when) = (Pair::bare("joint"), (0.25, false, turn, false));
-            one(
-                &laws,
-                &now,
-                Some(before),
-                when,
-                &pair,
-                &scale,
-                2.5,
-                &mut report,
-            );
+            let pair = Pair::bare("joint");
+            let increment = Increment {
+                t: 2.5,
+                dt: 0.25,
+                inertia: false,
+                turn,
+                springs: false,
+            };
+            let before = Some(before);
+            one(&laws, &now, before, &increment, &pair, &scale, &mut report);
             let mut figures = report.figures();
             let found = figures.find(|f| f.name == "mobilised").map(|f| f.value);
             found.unwrap_or(f64::NAN)

@@ -4,9 +4,26 @@ use toml::Table;
 
 use crate::case::{Case, kind, number, numbers, rows};
 
+/// A law of a problem file: its kind, and its keys.
+#[derive(Debug, Clone, Copy)]
+pub struct Law<'a> {
+    /// Its kind.
+    pub name: &'a str,
+    /// Its keys.
+    pub keys: &'a Table,
+}
+
+impl<'a> Law<'a> {
+    /// That under a key of a table.
+    pub fn of(table: &'a Table, key: &str) -> Option<Self> {
+        let (name, keys) = kind(table, key)?;
+        Some(Law { name, keys })
+    }
+}
+
 /// Pressure of a normal law at a gap; `None` where the law is a constraint, or is not known here.
-pub fn pressure(law: (&str, &Table), gap: f64) -> Option<f64> {
-    let (name, keys) = law;
+pub fn pressure(law: Law, gap: f64) -> Option<f64> {
+    let Law { name, keys } = law;
     let of = |key: &str| number(keys, key).unwrap_or(f64::NAN);
     let depth = (-gap).max(0.0);
     Some(match name {
@@ -28,7 +45,7 @@ pub fn pressure(law: (&str, &Table), gap: f64) -> Option<f64> {
 }
 
 /// How deep a law lets a point come that it presses with this, by halving; zero for a constraint, and for a law that is not known here.
-pub fn depth(law: (&str, &Table), wanted: f64) -> f64 {
+pub fn depth(law: Law, wanted: f64) -> f64 {
     let presses = |depth: f64| pressure(law, -depth);
     let mut deep = f64::MIN_POSITIVE;
     while presses(deep).is_some_and(|p| p < wanted) && deep < 1e100 {
@@ -89,8 +106,8 @@ pub struct Rubbing {
 }
 
 /// The largest shear that a friction law carries; `None` for a law that is not known here.
-pub fn limit(law: (&str, &Table), at: Rubbing) -> Option<f64> {
-    let (name, keys) = law;
+pub fn limit(law: Law, at: Rubbing) -> Option<f64> {
+    let Law { name, keys } = law;
     let of = |key: &str| number(keys, key).unwrap_or(0.0);
     let falling = |share: f64| of("kinetic") + (of("static") - of("kinetic")) * share;
     let p = at.pressure;
@@ -146,9 +163,9 @@ pub fn smooth(epsilon: f64, speed: f64) -> f64 {
 /// The laws of an interface that hold in a step: `[interface.NAME]`, and what steps up to this one change.
 pub struct Laws<'a> {
     /// Kind and keys of the normal law.
-    pub normal: (&'a str, &'a Table),
+    pub normal: Law<'a>,
     /// Kind and keys of the friction law.
-    pub friction: (&'a str, &'a Table),
+    pub friction: Law<'a>,
     /// ε of the smooth rule, if it is that.
     pub epsilon: Option<f64>,
 }
@@ -156,16 +173,16 @@ pub struct Laws<'a> {
 /// Reads the laws that hold in a step.
 pub fn laws<'a>(case: &'a Case, name: &str, step: usize) -> Option<Laws<'a>> {
     let table = case.of("interface", name)?;
-    let mut normal = kind(table, "normal")?;
-    let mut friction = kind(table, "friction")?;
+    let mut normal = Law::of(table, "normal")?;
+    let mut friction = Law::of(table, "friction")?;
     for step in &case.steps[..=step.min(case.steps.len() - 1)] {
         let change = step
             .table
             .get("change")
             .and_then(|c| c.get(name)?.as_table());
         if let Some(change) = change {
-            normal = kind(change, "normal").unwrap_or(normal);
-            friction = kind(change, "friction").unwrap_or(friction);
+            normal = Law::of(change, "normal").unwrap_or(normal);
+            friction = Law::of(change, "friction").unwrap_or(friction);
         }
     }
     let (rule, keys) = kind(table, "slip")?;
@@ -182,10 +199,14 @@ pub fn laws<'a>(case: &'a Case, name: &str, step: usize) -> Option<Laws<'a>> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Rubbing, depth, limit, pressure, smooth};
+    use super::{Law, Rubbing, Table, depth, limit, pressure, smooth};
 
     fn keys(text: &str) -> toml::Table {
         toml::from_str(text).expect("a table")
+    }
+
+    fn of<'a>(name: &'a str, keys: &'a Table) -> Law<'a> {
+        Law { name, keys }
     }
 
     #[test]
@@ -198,20 +219,20 @@ mod tests {
         ] {
             let law = keys(text);
             for wanted in [3.0, 35.0, 900.0] {
-                let deep = depth((name, &law), wanted);
-                let found = pressure((name, &law), -deep).unwrap_or(f64::NAN);
+                let deep = depth(of(name, &law), wanted);
+                let found = pressure(of(name, &law), -deep).unwrap_or(f64::NAN);
                 assert!((found - wanted).abs() < 1e-9 * wanted, "{name}: {found}");
             }
         }
-        assert_eq!(depth(("unilateral", &keys("")), 3.0), 0.0);
+        assert_eq!(depth(of("unilateral", &keys("")), 3.0), 0.0);
     }
 
     #[test]
     fn the_numbers_of_the_book_come_out() {
         let law = keys("p0 = 1e7\nc0 = 1e-5");
-        assert!((pressure(("exponential", &law), 1e-5).expect("a pressure") - 1e5).abs() < 1e-6);
+        assert!((pressure(of("exponential", &law), 1e-5).expect("a pressure") - 1e5).abs() < 1e-6);
         let law = keys("table = [[0, 0], [1, 1], [2, 4]]");
-        assert_eq!(pressure(("tabular", &law), -3.0), Some(7.0));
+        assert_eq!(pressure(of("tabular", &law), -3.0), Some(7.0));
         let law = keys("pressures = [0, 2]\nspeeds = [0, 1]\nmu = [[0.4, 0.2], [0.2, 0.1]]");
         let at = Rubbing {
             pressure: 1.0,
@@ -219,7 +240,7 @@ mod tests {
             speed: 0.5,
             slid: true,
         };
-        assert!((limit(("tabular", &law), at).expect("a limit") - 0.225).abs() < 1e-15);
+        assert!((limit(of("tabular", &law), at).expect("a limit") - 0.225).abs() < 1e-15);
         assert_eq!([smooth(1.0, 0.5), smooth(1.0, 3.0)], [0.75, 1.0]);
     }
 }

@@ -133,7 +133,7 @@ impl Obstacle {
 
     /// The angle by which what is now at `x` and has moved by `u` since `from` was turned about the axis together with the obstacle: no further than
     /// that, and not the other way.
-    pub fn followed(&self, (x, u): (Vec3, Vec3), from: f64, to: f64) -> f64 {
+    pub fn followed(&self, x: Vec3, u: Vec3, from: f64, to: f64) -> f64 {
         let ([centre, axis], before, shift) = self.frame(from);
         let (_, angle, now) = self.frame(to);
         let turn = angle - before;
@@ -164,8 +164,8 @@ pub fn foot(mesh: &Mesh, facets: &[Facet], at: &[Vec3], x: Vec3) -> Option<Foot>
         return inside;
     }
     // No facet is as near as this node: beyond an edge there is no foot, beneath a notch all facets around face away from the point.
-    if let Some(edge) = nearest_edge(facets, at, x) {
-        return foot_on_edge(mesh, facets, at, x, edge);
+    if let Some((edge, s)) = nearest_edge(facets, at, x) {
+        return foot_on_edge(mesh, facets, at, x, edge, s);
     }
     let around: Vec<&Facet> = facets.iter().filter(|f| f.nodes.contains(tip)).collect();
     if !beneath(mesh, &around, at, x, at[*tip]) || on_border(&around, *tip) {
@@ -214,7 +214,8 @@ fn foot_on_edge(
     facets: &[Facet],
     at: &[Vec3],
     x: Vec3,
-    ([a, b], s): ([usize; 2], f64),
+    [a, b]: [usize; 2],
+    s: f64,
 ) -> Option<Foot> {
     let place = add(scale(1.0 - s, at[a]), scale(s, at[b]));
     let beside = |f: &&Facet| f.nodes.contains(&a) && f.nodes.contains(&b);
@@ -426,7 +427,8 @@ impl Pair {
     pub fn new(
         case: &Case,
         mesh: &Mesh,
-        (name, table): (&str, &Table),
+        name: &str,
+        table: &Table,
         exchanged: bool,
     ) -> Option<Pair> {
         let mut keys = ["secondary", "primary"];
@@ -513,7 +515,7 @@ impl Pair {
         let Side::Rigid(obstacle) = &self.primary else {
             return 0.0;
         };
-        let of = |n: usize| obstacle.followed((x[n], u(n)), times[0], times[1]).abs();
+        let of = |n: usize| obstacle.followed(x[n], u(n), times[0], times[1]).abs();
         match self.means.get(&node) {
             Some(&[a, b]) => (of(node) + 0.2 * (of(a) + of(b))) / 0.6,
             None => of(node),

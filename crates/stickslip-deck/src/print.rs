@@ -218,7 +218,7 @@ impl Printer {
                 }
                 Print::Section { surface, when } if self.due(when) => {
                     let faces = self.surfaces.get(surface).map_or(&[][..], Vec::as_slice);
-                    section::print(analysis, &mut out, (surface, faces), self.time);
+                    section::print(analysis, &mut out, surface, faces, self.time);
                 }
                 Print::Contact {
                     pair,
@@ -493,8 +493,7 @@ impl Printer {
                             "CFS" => Part::Shear,
                             _ => Part::Whole,
                         };
-                        let names = (slave.as_str(), master.as_str());
-                        statistics(analysis, interface, out, part, names, self.time);
+                        statistics(analysis, interface, out, part, slave, master, self.time);
                     }
                 }
                 _ => {}
@@ -597,7 +596,8 @@ fn statistics(
     interface: ContactView,
     out: &mut String,
     part: Part,
-    (slave, master): (&str, &str),
+    slave: &str,
+    master: &str,
     t: f64,
 ) {
     let u = &analysis.frame.state.u;

@@ -29,7 +29,8 @@ struct Sums {
 pub(crate) fn print(
     analysis: &Analysis,
     out: &mut String,
-    (name, faces): (&str, &[(u64, usize)]),
+    name: &str,
+    faces: &[(u64, usize)],
     at: f64,
 ) {
     let mesh = &analysis.model.mesh;

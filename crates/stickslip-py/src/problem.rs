@@ -261,7 +261,7 @@ impl Problem {
         let (setup, source, raised) = self.prepare(py, laws)?;
         let made = py.detach(|| stickslip::run::Simulation::with_library(setup, library));
         let made = made.map_err(|e| raise(py, e))?;
-        Ok(Simulation::new(made, (self.inputs(), source), raised))
+        Ok(Simulation::new(made, self.inputs(), source, raised))
     }
 
     /// Makes a simulation that goes on from what [`Simulation::state`] returned.
@@ -277,7 +277,7 @@ impl Problem {
         let (checkpoint, rows) = Simulation::parts(state)?;
         let made = py.detach(|| stickslip::run::Simulation::resume(setup, library, checkpoint));
         let made = made.map_err(|e| raise(py, e))?;
-        Ok(Simulation::new(made, (self.inputs(), source), raised).with_rows(rows))
+        Ok(Simulation::new(made, self.inputs(), source, raised).with_rows(rows))
     }
 
     /// Makes a simulation that goes on in a folder of results, from the last checkpoint or that after so many increments.
@@ -313,7 +313,7 @@ impl Problem {
             Ok((simulation, held))
         };
         let (made, held) = py.detach(go_on).map_err(|e| raise(py, e))?;
-        let simulation = Simulation::new(made, (self.inputs(), source), raised);
+        let simulation = Simulation::new(made, self.inputs(), source, raised);
         simulation
             .going_on_in(&directory, held, &saved, notes)
             .map_err(|e| raise(py, e))

@@ -140,7 +140,8 @@ impl Simulation {
     /// From a simulation, the files it was read from and what checkpoints say of it, and the place for exceptions of its laws.
     pub fn new(
         mut simulation: stickslip::run::Simulation,
-        (inputs, source): (Vec<PathBuf>, Source),
+        inputs: Vec<PathBuf>,
+        source: Source,
         raised: Raised,
     ) -> Self {
         let slot = Arc::clone(&raised);

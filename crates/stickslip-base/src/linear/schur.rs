@@ -75,7 +75,8 @@ impl Schur {
     pub fn invert(
         self,
         n: usize,
-        (modes, sigma): (&[Vec<f64>], f64),
+        modes: &[Vec<f64>],
+        sigma: f64,
         workspace: &Workspace,
     ) -> Result<Compliance, LinearError> {
         let mut values = match self {

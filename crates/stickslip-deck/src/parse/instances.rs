@@ -274,7 +274,7 @@ impl Reader<'_> {
         self.scope = Some(self.deck.numbering.add(name));
         self.structure.instance = Some(OpenInstance {
             place: card.place,
-            system: self.system.clone(),
+            system: self.system,
         });
         self.system = Motion::NONE;
         if let Some(part) = card.get("PART").map(str::to_string) {

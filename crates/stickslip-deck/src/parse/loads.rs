@@ -180,14 +180,15 @@ impl Reader<'_> {
 
     pub(super) fn distribute(
         &mut self,
-        (amplitude, imaginary): &(Option<String>, bool),
+        amplitude: Option<&String>,
+        imaginary: bool,
         load: Distributed,
         place: Place,
     ) {
         self.act(Action::Distributed {
             load,
-            amplitude: amplitude.clone(),
-            imaginary: *imaginary,
+            amplitude: amplitude.cloned(),
+            imaginary,
             place,
         });
     }
@@ -197,7 +198,7 @@ impl Reader<'_> {
             return;
         }
         self.operation(card, Action::ClearDistributed);
-        let course = (self.course(card), self.imaginary(card));
+        let (course, imaginary) = (self.course(card), self.imaginary(card));
         for data in &card.data {
             let Some(first) = data.fields.first().cloned() else {
                 continue;
@@ -208,7 +209,8 @@ impl Reader<'_> {
             if what == "P" && self.deck.surfaces.contains_key(&name) {
                 self.faces_once(&name, data.place);
                 let p = self.number(data, 2, 0.0);
-                self.distribute(&course, Distributed::Surface(name, p), data.place);
+                let load = Distributed::Surface(name, p);
+                self.distribute(course.as_ref(), imaginary, load, data.place);
                 continue;
             }
             let elements = match first.is_empty() && matches!(what.as_str(), "GRAV" | "CENTRIF") {
@@ -227,7 +229,7 @@ impl Reader<'_> {
             };
             self.no_more(data, count, &what);
             if let Some(load) = self.load(data, elements, &what, value) {
-                self.distribute(&course, load, data.place);
+                self.distribute(course.as_ref(), imaginary, load, data.place);
             }
         }
     }
@@ -302,7 +304,7 @@ impl Reader<'_> {
             return;
         }
         self.operation(card, Action::ClearDistributed);
-        let course = (self.course(card), self.imaginary(card));
+        let (course, imaginary) = (self.course(card), self.imaginary(card));
         for data in &card.data {
             let name = data.fields.first().map(|f| self.name(f));
             let name = name.unwrap_or_default();
@@ -317,7 +319,8 @@ impl Reader<'_> {
             }
             self.faces_once(&name, data.place);
             let p = self.number(data, 2, 0.0);
-            self.distribute(&course, Distributed::Surface(name, p), data.place);
+            let load = Distributed::Surface(name, p);
+            self.distribute(course.as_ref(), imaginary, load, data.place);
         }
     }
 

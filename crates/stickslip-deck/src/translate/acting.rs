@@ -120,11 +120,13 @@ pub(super) fn open(job: &mut Job, name: &str, set: &str, place: Place, when: &Wh
     let unusual = when.amplitude.is_none() && courses::unusual(job.deck);
     let factor = match (&when.amplitude, unusual || when.ends.contains(&true)) {
         (None, false) => None,
-        (Some(a), false) => Some(courses::amplitude(job, a, (&when.steps, &when.kept), &name)),
+        (Some(a), false) => Some(courses::amplitude(job, a, &when.steps, &when.kept, &name)),
         (a, true) => Some(courses::ending(
             job,
             a.as_ref(),
-            (&when.steps, &when.kept, &when.ends),
+            &when.steps,
+            &when.kept,
+            &when.ends,
             &name,
         )),
     };

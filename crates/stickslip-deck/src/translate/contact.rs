@@ -89,7 +89,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                 };
                 for (interaction, steps) in phases(job, pair) {
                     let name = job.fresh("interface", &toml::name(&wanted));
-                    interface(job, (bodies, sets), &name, (pair, &interaction), (from, to));
+                    interface(job, bodies, sets, &name, pair, &interaction, [from, to]);
                     let present = present(deck, pair);
                     let acts = present.iter().zip(&steps).map(|(a, b)| *a && *b);
                     job.active
@@ -250,10 +250,12 @@ fn meet(
 
 fn interface(
     job: &mut Job,
-    (bodies, sets): (&Bodies, &mut Sets),
+    bodies: &Bodies,
+    sets: &mut Sets,
     name: &str,
-    (pair, interaction): (&Pair, &Interaction),
-    (from, to): (&str, &str),
+    pair: &Pair,
+    interaction: &Interaction,
+    [from, to]: [&str; 2],
 ) {
     let deck = job.deck;
     job.table("interface", name, pair.place);

@@ -23,7 +23,8 @@ pub(super) fn unusual(deck: &Deck) -> bool {
 pub(super) fn jump(
     job: &mut Job,
     active: &[bool],
-    (value, place): (f64, Place),
+    value: f64,
+    place: Place,
     user: &str,
 ) -> Option<String> {
     let deck = job.deck;
@@ -89,7 +90,8 @@ pub(super) fn jump(
 pub(super) fn amplitude(
     job: &mut Job,
     name: &str,
-    (active, kept): (&[bool], &[bool]),
+    active: &[bool],
+    kept: &[bool],
     user: &str,
 ) -> String {
     let Some(a) = job.deck.amplitudes.get(name) else {
@@ -132,7 +134,9 @@ pub(super) fn amplitude(
 pub(super) fn ending(
     job: &mut Job,
     name: Option<&String>,
-    (active, kept, ends): (&[bool], &[bool], &[bool]),
+    active: &[bool],
+    kept: &[bool],
+    ends: &[bool],
     user: &str,
 ) -> String {
     let given = name.and_then(|n| job.deck.amplitudes.get(n));

@@ -109,7 +109,7 @@ fn on_bodies(
 }
 
 /// The steps in which the equation of a dependent displacement, a node and its direction, has not been removed.
-fn held(job: &Job, (node, component): (u64, usize)) -> Vec<bool> {
+fn held(job: &Job, node: u64, component: usize) -> Vec<bool> {
     let mut on = true;
     let removes = |a: &Action| match a {
         Action::RemoveEquations { target: None, .. } => true,
@@ -172,10 +172,11 @@ fn equations(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<
                 job,
                 bodies,
                 sets,
-                (&format!("equation-{}", i + 1), e.place),
+                &format!("equation-{}", i + 1),
+                e.place,
                 &list,
             );
-            let steps = held(job, dependent);
+            let steps = held(job, dependent.0, dependent.1);
             if steps.contains(&false) {
                 job.active.push(("couplings", name, steps));
             }
@@ -262,21 +263,30 @@ fn elongation(job: &mut Job, link: &Link, directions: &[usize]) -> Option<Vec<Te
     }
 }
 
-/// A coupling between the nodes of an element: `what = { terms, more }`.
+/// What a coupling is: its kind, and its keys beside the terms.
+struct Kind<'a> {
+    name: &'a str,
+    keys: &'a str,
+}
+
+/// A coupling between the nodes of an element: `kind = { terms, keys }`.
 fn couple(
     job: &mut Job,
-    (bodies, sets): (&Bodies, &mut Sets),
-    (link, ground): (&Link, &BTreeSet<u64>),
+    bodies: &Bodies,
+    sets: &mut Sets,
+    link: &Link,
+    ground: &BTreeSet<u64>,
     mut list: Vec<Term>,
-    (what, more): (&str, &str),
+    kind: Kind,
 ) {
+    let Kind { name: what, keys } = kind;
     list.retain(|t| !ground.contains(&t.0));
     let label = job.deck.label(link.element);
     let name = job.fresh("coupling", &toml::name(&format!("{what}-{label}")));
     let terms = terms(bodies, sets, &job.deck.numbering, &list);
     job.table("coupling", &name, link.place);
     job.out
-        .line(&format!("{what} = {{ terms = {terms}, {more} }}"));
+        .line(&format!("{what} = {{ terms = {terms}, {keys} }}"));
 }
 
 /// It is an error if an element is not of a kind that its card is for.
@@ -298,7 +308,8 @@ pub(super) fn equation(
     job: &mut Job,
     bodies: &Bodies,
     sets: &mut Sets,
-    (name, place): (&str, Place),
+    name: &str,
+    place: Place,
     list: &[Term],
 ) -> String {
     let name = job.fresh("coupling", name);
@@ -335,13 +346,11 @@ fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u6
                     toml::text(&b)
                 ));
             } else if let Some(list) = elongation(job, &link, &s.directions) {
-                couple(
-                    job,
-                    (bodies, sets),
-                    (&link, ground),
-                    list,
-                    ("spring", &stiffness),
-                );
+                let kind = Kind {
+                    name: "spring",
+                    keys: &stiffness,
+                };
+                couple(job, bodies, sets, &link, ground, list, kind);
             }
         }
     }
@@ -353,13 +362,11 @@ fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u6
             }
             if let Some(list) = elongation(job, &link, &s.directions) {
                 let coefficient = format!("coefficient = {}", toml::number(s.stiffness));
-                couple(
-                    job,
-                    (bodies, sets),
-                    (&link, ground),
-                    list,
-                    ("dashpot", &coefficient),
-                );
+                let kind = Kind {
+                    name: "dashpot",
+                    keys: &coefficient,
+                };
+                couple(job, bodies, sets, &link, ground, list, kind);
             }
         }
     }
@@ -393,7 +400,11 @@ fn gaps(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u64>)
             if let Some(k) = g.stiffness {
                 more += &format!(", stiffness = {}", toml::number(k));
             }
-            couple(job, (bodies, sets), (&link, ground), list, ("gap", &more));
+            let kind = Kind {
+                name: "gap",
+                keys: &more,
+            };
+            couple(job, bodies, sets, &link, ground, list, kind);
         }
     }
 }

@@ -63,7 +63,7 @@ fn along(direction: Vec3, factor: f64) -> [f64; 6] {
 
 fn say(job: &mut Job, bodies: &Bodies, sets: &mut Sets, c: &MultiPoint, terms: &[Term]) {
     let name = format!("mpc-{}", c.kind.to_lowercase());
-    equation(job, bodies, sets, (&name, c.place), terms);
+    equation(job, bodies, sets, &name, c.place, terms);
 }
 
 /// The first node follows the second, which may turn.
@@ -78,7 +78,7 @@ fn beam(job: &mut Job, bodies: &Bodies, sets: &mut Sets, c: &MultiPoint) -> Done
     let label = toml::name(&format!("node-{}", job.deck.label(end)));
     let set = sets.points(bodies, &label, &[end]);
     let reference = bodies.references[&start].clone();
-    tie(job, "mpc-beam", (&set, &reference), c.place, "");
+    tie(job, "mpc-beam", &set, &reference, c.place, "");
     Ok(())
 }
 

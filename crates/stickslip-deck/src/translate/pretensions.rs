@@ -117,7 +117,7 @@ fn steps(job: &mut Job, node: u64, name: &str, forces: &[loads::Forces], held: &
                 let active: Vec<bool> = (0..held.len()).map(|k| mine(k).is_some()).collect();
                 let kept = (0..held.len()).map(|k| mine(k).is_some_and(|(_, step)| step < k));
                 let kept: Vec<bool> = kept.collect();
-                courses::amplitude(job, a, (&active, &kept), name)
+                courses::amplitude(job, a, &active, &kept, name)
             });
             format!(", amplitude = {}", toml::text(table))
         });

@@ -105,7 +105,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         // A node of a body that others refer to.
         if bodies.of_node.contains_key(node) {
             let set = sets.points(bodies, &format!("{name}-point"), &[*node]);
-            tie(job, &format!("{name}-point"), (&set, name), place, "");
+            tie(job, &format!("{name}-point"), &set, name, place, "");
         }
     }
     for (index, nodes) in &bodies.rigid_nodes {
@@ -119,7 +119,8 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         tie(
             job,
             &name,
-            (&set, &bodies.references[&reference]),
+            &set,
+            &bodies.references[&reference],
             rigid.place,
             "",
         );
@@ -130,13 +131,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
 }
 
 /// A kinematic coupling.
-pub(super) fn tie(
-    job: &mut Job,
-    name: &str,
-    (set, reference): (&str, &str),
-    place: Place,
-    more: &str,
-) {
+pub(super) fn tie(job: &mut Job, name: &str, set: &str, reference: &str, place: Place, more: &str) {
     let name = job.fresh("coupling", name);
     job.table("coupling", &name, place);
     job.out.line(&format!(
@@ -205,7 +200,7 @@ fn coupled(job: &mut Job, bodies: &Bodies, sets: &mut Sets, coupling: &NodeCoupl
         true => String::new(),
         false => format!(", components = {}", toml::texts(&axes)),
     };
-    tie(job, &label, (&set, &point), *place, &more);
+    tie(job, &label, &set, &point, *place, &more);
 }
 
 /// Where a reference node lies beside the centre of the nodes of a `*DISTRIBUTING COUPLING`, its force has an arm in Abaqus, and here; in CalculiX the

@@ -8,7 +8,7 @@ use super::sets::Sets;
 use super::{courses, toml};
 use crate::axes;
 use crate::card::Place;
-use crate::deck::{Action, Boundary, Rigid, Target, Transform};
+use crate::deck::{Action, Boundary, Rigid, Target};
 
 /// What is prescribed of one displacement in one step.
 #[derive(Debug, Clone, PartialEq)]
@@ -105,13 +105,12 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         let Some(first) = values.iter().flatten().min_by_key(|v| v.place).cloned() else {
             continue;
         };
-        let when = (node, &steps, &amplitude);
         if job.deck.pretension(node).is_some() {
             continue;
         }
         let refers = bodies.references.contains_key(&node);
         if !refers && !bodies.of_node.contains_key(&node) {
-            reference(job, bodies, when, &values, &states);
+            reference(job, bodies, node, &steps, &amplitude, &values, &states);
             continue;
         }
         let zero = values.iter().flatten().all(|v| v.value == 0.0 && !v.fixed);
@@ -126,10 +125,8 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             );
             continue;
         }
-        if let Some(t) = job.deck.transforms.get(&node).copied()
-            && !(zero && all)
-        {
-            local(job, bodies, sets, when, (&values, t));
+        if job.deck.transforms.contains_key(&node) && !(zero && all) {
+            local(job, bodies, sets, node, &steps, &amplitude, &values);
             continue;
         }
         let alike = values
@@ -153,8 +150,8 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     // In the order of the deck.
     let mut ordered: Vec<(Alike, (Vec<u64>, Value))> = groups.into_iter().collect();
     ordered.sort_by_key(|(_, (_, v))| v.place);
-    for (alike, group) in ordered {
-        support(job, bodies, sets, alike, group);
+    for (alike, (nodes, first)) in ordered {
+        support(job, bodies, sets, alike, nodes, first);
     }
 }
 
@@ -214,7 +211,8 @@ fn support(
     bodies: &Bodies,
     sets: &mut Sets,
     (steps, amplitude, values, own): Alike,
-    (nodes, first): (Vec<u64>, Value),
+    nodes: Vec<u64>,
+    first: Value,
 ) {
     let name = job.fresh("support", &toml::name(&first.label));
     let set = match own {
@@ -264,8 +262,8 @@ fn course(
     user: &str,
 ) -> Option<String> {
     match amplitude {
-        Some(a) => Some(courses::amplitude(job, a, (active, kept), user)),
-        None => courses::jump(job, active, (value, place), user),
+        Some(a) => Some(courses::amplitude(job, a, active, kept, user)),
+        None => courses::jump(job, active, value, place, user),
     }
 }
 
@@ -273,7 +271,9 @@ fn course(
 fn reference(
     job: &mut Job,
     bodies: &Bodies,
-    (node, when, amplitude): (u64, &When, &Option<String>),
+    node: u64,
+    when: &When,
+    amplitude: &Option<String>,
     values: &[Option<Value>; 6],
     states: &[State],
 ) {
@@ -345,13 +345,15 @@ fn local(
     job: &mut Job,
     bodies: &Bodies,
     sets: &mut Sets,
-    (node, when, amplitude): (u64, &When, &Option<String>),
-    (values, transform): (&[Option<Value>; 6], Transform),
+    node: u64,
+    when: &When,
+    amplitude: &Option<String>,
+    values: &[Option<Value>; 6],
 ) {
     let Some(first) = values.iter().flatten().next().cloned() else {
         return;
     };
-    let Some(axes) = axes::at_node(&transform, job.deck.nodes[&node]) else {
+    let Some(axes) = axes::at_node(&job.deck.transforms[&node], job.deck.nodes[&node]) else {
         job.error(
             first.place,
             format!(

@@ -119,7 +119,8 @@ fn course(job: &mut Job, when: &When, place: Place, label: &str) -> Option<Optio
         return Some(Some(courses::amplitude(
             job,
             &name,
-            (&when.steps, &when.kept),
+            &when.steps,
+            &when.kept,
             label,
         )));
     }

@@ -50,6 +50,12 @@ pub struct Elastic {
     pub(super) corotational: bool,
 }
 
+/// Takes dense matrices, row by row, and their points.
+pub type CellVisitor<'a> = dyn FnMut(&[usize], &[f64]) + Send + 'a;
+
+/// Makes further matrices of a cell, behind its stiffness.
+type CellMatrices<'a> = dyn Fn(usize, &mut [f64]) + Sync + 'a;
+
 impl Elastic {
     /// A body of the given parts, which must be different blocks.
     ///
@@ -194,7 +200,7 @@ impl Elastic {
 
     /// Hands out the stiffness matrix of every cell, shape `(n dim, n dim)` row by row, with the cell's points; parts
     /// and cells in order.
-    pub fn element_matrices(&self, visit: &mut (dyn FnMut(&[usize], &[f64]) + Send)) {
+    pub fn element_matrices(&self, visit: &mut CellVisitor) {
         for (part, p) in self.parts.iter().enumerate() {
             by_nodes!(
                 self.mesh.blocks[p.block].kind,
@@ -242,8 +248,8 @@ impl Elastic {
         &self,
         part: usize,
         count: usize,
-        more: &(dyn Fn(usize, &mut [f64]) + Sync),
-        visit: &mut (dyn FnMut(&[usize], &[f64]) + Send),
+        more: &CellMatrices,
+        visit: &mut CellVisitor,
     ) {
         let block = &self.mesh.blocks[self.parts[part].block];
         let (space, acting) = (self.space, &self.acting[part]);

@@ -38,7 +38,7 @@ mod waves;
 pub use anchors::{Anchors, Hold, spread};
 pub use around::Around;
 pub use cells::CellState;
-pub use elastic::{Elastic, Part};
+pub use elastic::{CellVisitor, Elastic, Part};
 pub use facets::{area_vectors, positive_areas, tributary_areas};
 pub use mass::MassKind;
 pub use moments::MassMoments;

@@ -35,7 +35,7 @@ struct Sum {
 
 impl Sum {
     /// Adds a point of a cell with these displacements of its nodes.
-    fn add<const N: usize>(&mut self, at: &Point<N>, u: &Nodal<N>, (dim, cell): (usize, usize)) {
+    fn add<const N: usize>(&mut self, at: &Point<N>, u: &Nodal<N>, dim: usize, cell: usize) {
         let mut gradient = [[0.0; 3]; 3];
         for (row, u) in gradient.iter_mut().zip(u).take(dim) {
             for (g, d) in row.iter_mut().zip(&at.d).take(dim) {
@@ -148,7 +148,7 @@ impl Elastic {
                     u = CellFrame::new(dim, &x, &u).local();
                 }
                 for q in 0..table.len() {
-                    sum.add(&point(&table, q, &x, self.space), &u, (dim, cell));
+                    sum.add(&point(&table, q, &x, self.space), &u, dim, cell);
                 }
             }
             sum

@@ -45,11 +45,11 @@ pub fn crossing(facets: &[Facet], x: &[Vec3]) -> Option<(usize, usize)> {
 /// Whether two segments of the plane, or two triangles in space, run through each other.
 fn pieces_cross(a: &[Vec3], b: &[Vec3]) -> bool {
     match (a, b) {
-        ([a0, a1], [b0, b1]) => segments_cross((*a0, *a1), (*b0, *b1)),
+        ([a0, a1], [b0, b1]) => segments_cross([*a0, *a1], [*b0, *b1]),
         ([a0, a1, a2], [b0, b1, b2]) => {
             // Of two triangles that run through each other one is pierced by an edge of the other.
             let pierced = |t: [Vec3; 3], other: [Vec3; 3]| {
-                (0..3).any(|k| edge_pierces((other[k], other[(k + 1) % 3]), t))
+                (0..3).any(|k| edge_pierces([other[k], other[(k + 1) % 3]], t))
             };
             let (a, b) = ([*a0, *a1, *a2], [*b0, *b1, *b2]);
             pierced(a, b) || pierced(b, a)
@@ -63,8 +63,8 @@ fn inside(s: f64) -> bool {
 }
 
 /// Segments in the plane z = 0.
-fn segments_cross(a: (Vec3, Vec3), b: (Vec3, Vec3)) -> bool {
-    let (r, w, d) = (sub(a.1, a.0), sub(b.1, b.0), sub(b.0, a.0));
+fn segments_cross(a: [Vec3; 2], b: [Vec3; 2]) -> bool {
+    let (r, w, d) = (sub(a[1], a[0]), sub(b[1], b[0]), sub(b[0], a[0]));
     let sine = cross(r, w)[2];
     if sine.abs() <= PARALLEL * norm(r) * norm(w) {
         return false;
@@ -72,15 +72,15 @@ fn segments_cross(a: (Vec3, Vec3), b: (Vec3, Vec3)) -> bool {
     inside(cross(d, w)[2] / sine) && inside(cross(d, r)[2] / sine)
 }
 
-/// Whether an edge goes through the inside of a triangle: `edge.0 + s r = t[0] + u e1 + v e2`.
-fn edge_pierces(edge: (Vec3, Vec3), t: [Vec3; 3]) -> bool {
-    let (r, e1, e2) = (sub(edge.1, edge.0), sub(t[1], t[0]), sub(t[2], t[0]));
+/// Whether an edge goes through the inside of a triangle: `edge[0] + s r = t[0] + u e1 + v e2`.
+fn edge_pierces(edge: [Vec3; 2], t: [Vec3; 3]) -> bool {
+    let (r, e1, e2) = (sub(edge[1], edge[0]), sub(t[1], t[0]), sub(t[2], t[0]));
     let normal = cross(e1, e2);
     let sine = dot(normal, r);
     if sine.abs() <= PARALLEL * norm(normal) * norm(r) {
         return false;
     }
-    let d = sub(edge.0, t[0]);
+    let d = sub(edge[0], t[0]);
     let s = -dot(normal, d) / sine;
     let q = cross(d, r);
     let (u, v) = (-dot(e2, q) / sine, dot(e1, q) / sine);

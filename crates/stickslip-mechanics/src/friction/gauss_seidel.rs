@@ -38,7 +38,7 @@ impl FrictionSolver for GaussSeidel {
         let mut seen = vec![best.error()];
         for sweep in 1..=self.sweeps {
             for (k, block) in own.iter().enumerate() {
-                visit(problem, (k, block), stiffness[k], &mut forces);
+                visit(problem, k, block, stiffness[k], &mut forces);
             }
             if sweep % LOOK != 0 && sweep != self.sweeps {
                 continue;
@@ -58,7 +58,7 @@ impl FrictionSolver for GaussSeidel {
 }
 
 /// Solves one point.
-fn visit(problem: &FrictionProblem, (k, own): (usize, &[f64; 9]), rho: f64, forces: &mut [f64]) {
+fn visit(problem: &FrictionProblem, k: usize, own: &[f64; 9], rho: f64, forces: &mut [f64]) {
     let d = problem.dimension;
     let mut now = [0.0; 3];
     now[..d].copy_from_slice(&forces[k * d..(k + 1) * d]);

@@ -106,7 +106,7 @@ impl FrictionSolver for NewtonInForces {
                 Step::LeastSquares => 0.0,
                 Step::Proximal => error.min(PROXIMAL),
             };
-            let direction = Linearised::new(problem, &stiffness, (&forces, &motion), &map)
+            let direction = Linearised::new(problem, &stiffness, &forces, &motion, &map)
                 .direction(self.step, proximal);
             let mut part = 1.0;
             for halving in 0..=HALVINGS {
@@ -139,7 +139,8 @@ impl<'a> Linearised<'a> {
     fn new(
         problem: &'a FrictionProblem,
         stiffness: &'a [f64],
-        (forces, motion): (&'a [f64], &[f64]),
+        forces: &'a [f64],
+        motion: &[f64],
         residual: &'a [f64],
     ) -> Self {
         let d = problem.dimension;

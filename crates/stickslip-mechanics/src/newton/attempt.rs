@@ -40,7 +40,8 @@ impl Attempt<'_, '_> {
     pub fn evaluate(&mut self, out: &mut Assembler, tangent: bool) -> Result<Balance, StepFailure> {
         Balance::evaluate(
             self.system,
-            (self.from, self.at),
+            self.from,
+            self.at,
             out,
             tangent,
             self.statistics,

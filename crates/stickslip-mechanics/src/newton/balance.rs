@@ -24,7 +24,8 @@ impl Balance {
     /// Evaluates all forces from the state `from` at the state `at`; `out` gets those of the interfaces, with their tangents if `tangent`.
     pub fn evaluate(
         system: &mut System,
-        (from, at): (&State, &State),
+        from: &State,
+        at: &State,
         out: &mut Assembler,
         tangent: bool,
         statistics: &mut Statistics,

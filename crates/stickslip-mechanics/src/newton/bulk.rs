@@ -54,7 +54,8 @@ pub trait Bulk {
         b: &[f64],
         tolerance: f64,
         du: &mut [f64],
-        effort: (&Settings, &mut Statistics),
+        settings: &Settings,
+        statistics: &mut Statistics,
     ) -> Result<usize, StepFailure>;
 
     /// The displacements are now those before the last solution plus `step` times it.

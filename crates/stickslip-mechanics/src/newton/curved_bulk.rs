@@ -39,7 +39,8 @@ pub struct CurvedBulk<'a> {
 impl<'a> CurvedBulk<'a> {
     /// A bulk with these forces, of which nothing is known yet.
     pub fn new(
-        (curved, diagonal): (&'a dyn Curved, &'a [f64]),
+        curved: &'a dyn Curved,
+        diagonal: &'a [f64],
         external: Vec<f64>,
         fixed: Vec<bool>,
         linearised: &'a mut Linearised,
@@ -100,7 +101,8 @@ impl Bulk for CurvedBulk<'_> {
         b: &[f64],
         tolerance: f64,
         du: &mut [f64],
-        (settings, statistics): (&Settings, &mut Statistics),
+        settings: &Settings,
+        statistics: &mut Statistics,
     ) -> Result<usize, StepFailure> {
         let made = match self.made.take() {
             Some((at, made)) if at == self.at => made,

@@ -44,7 +44,8 @@ pub struct SparseBulk<'a> {
 impl<'a> SparseBulk<'a> {
     /// A bulk with this matrix and its factor.
     pub fn new(
-        (matrix, diagonal): (&'a BlockCsr, &'a [f64]),
+        matrix: &'a BlockCsr,
+        diagonal: &'a [f64],
         external: Vec<f64>,
         fixed: Vec<bool>,
         origin: Option<Origin>,
@@ -114,7 +115,8 @@ impl Bulk for SparseBulk<'_> {
         b: &[f64],
         tolerance: f64,
         du: &mut [f64],
-        (settings, statistics): (&Settings, &mut Statistics),
+        settings: &Settings,
+        statistics: &mut Statistics,
     ) -> Result<usize, StepFailure> {
         let operator = Operator {
             matrix: self.matrix,

@@ -222,7 +222,7 @@ impl Corotations {
     }
 
     /// Where points go in a time `dt` if nothing acts on them: displacements, in `out`, of bodies that turn and deform as they do with displacements `u` and velocities `v`.
-    pub fn go_on(&self, (u, v): (&[f64], &[f64]), dt: f64, out: &mut [f64]) {
+    pub fn go_on(&self, u: &[f64], v: &[f64], dt: f64, out: &mut [f64]) {
         let turns = self.turns(u);
         let local = self.local(&turns, u);
         let deforming = self.deforming(&turns, &local, v);
@@ -452,7 +452,7 @@ mod tests {
             // A quarter of a revolution later.
             let quarter = 0.5 * std::f64::consts::PI / spin[2];
             let mut later = u.clone();
-            bodies.go_on((&u, &v), quarter, &mut later);
+            bodies.go_on(&u, &v, quarter, &mut later);
             let again = bodies.local(&bodies.turns(&later), &later);
             for (a, b) in again[..6 * dim].iter().zip(&local) {
                 assert!((a - b).abs() < 1e-13);

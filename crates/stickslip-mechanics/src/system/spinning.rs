@@ -162,7 +162,9 @@ impl Spinning {
     /// give, with velocities and momenta at both ends.
     pub fn add_gyroscopic(
         &self,
-        (u, dt, old): (&[f64], f64, f64),
+        u: &[f64],
+        dt: f64,
+        old: f64,
         [(v0, p0), (v1, p1)]: [Carried; 2],
         inertial: &mut [f64],
     ) {
@@ -193,7 +195,8 @@ impl Spinning {
     /// product by dof that hands back spins times lengths.
     pub fn drift(
         &self,
-        (p, dt): (&[f64], f64),
+        p: &[f64],
+        dt: f64,
         spin_of: impl Fn(usize, Vec3) -> Vec3,
     ) -> Vec<[Vec3; 2]> {
         let each = self.all.iter().map(|rotor| {
@@ -301,7 +304,7 @@ mod tests {
         let spinning = Spinning::new(&frames(), &state([0.0; 3]));
         let spin_of = |_: usize, p: Vec3| [p[0] / J[0], p[1] / J[1], p[2] / J[2]];
         let p = state([0.4, 3.0, -0.2]);
-        let [psi, last] = spinning.drift((&p, 0.3), spin_of)[0];
+        let [psi, last] = spinning.drift(&p, 0.3, spin_of)[0];
         let first = [p[6], p[7], p[8]];
         let energy = |p: Vec3| dot(p, spin_of(0, p));
         assert!((energy(first) - energy(last)).abs() < 1e-14);

@@ -17,7 +17,8 @@ use crate::results::{Results, fault};
 /// [`Error::Io`] if there is no history or no such column.
 pub fn draw(
     results: &Results,
-    (table, file): (&Table, &str),
+    table: &Table,
+    file: &str,
     names: &[String],
     against: &str,
     size: [u32; 2],

@@ -8,16 +8,26 @@ use crate::colour::{self, Scale};
 use crate::draw::{Anchor, Canvas, Pen};
 use crate::field::{self, Field};
 
-/// Draws the colour bar of a field, and its unit, with these values, or the list of the statuses.
-pub fn bar(
-    (field, unit): (&Field, &str),
-    colours: &Scale,
-    values: &[f64],
-    at: [f64; 2],
-    size: [f64; 2],
-    em: f64,
-    canvas: &mut dyn Canvas,
-) {
+/// What a colour bar is of.
+pub struct Shown<'a> {
+    /// The field.
+    pub field: &'a Field,
+    /// Its unit, as it is written behind the name.
+    pub unit: &'a str,
+    /// The colours of its values.
+    pub colours: &'a Scale,
+    /// Its values.
+    pub values: &'a [f64],
+}
+
+/// Draws the colour bar of a field, or the list of the statuses.
+pub fn bar(shown: &Shown, at: [f64; 2], size: [f64; 2], em: f64, canvas: &mut dyn Canvas) {
+    let Shown {
+        field,
+        unit,
+        colours,
+        values,
+    } = *shown;
     let [x, mut y] = at;
     let label = field.label();
     let (name, words) = label.split_once(", ").unwrap_or((&label, ""));

@@ -116,7 +116,8 @@ pub fn arrows(sheets: &[Sheet], drawn: &Drawn, dim: usize, canvas: &mut dyn Canv
 
 /// Marks the place with the largest pressure that is drawn, where nothing hides it.
 pub fn peak(
-    (x, most): ([f64; 3], f64),
+    x: [f64; 3],
+    most: f64,
     sheets: &[Sheet],
     drawn: &Drawn,
     units: &Units,

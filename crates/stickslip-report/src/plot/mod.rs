@@ -82,8 +82,17 @@ pub fn columns(
     let results = Results::open(directory)?;
     let file = file.map_or_else(|| directory.join("history.png"), Path::to_path_buf);
     let mut canvas = canvas(&file, size)?;
-    let table = (&results.history, "history.csv");
-    history::draw(&results, table, names, against, size, canvas.as_mut())?;
+    let table = &results.history;
+    let drawn_on = canvas.as_mut();
+    history::draw(
+        &results,
+        table,
+        "history.csv",
+        names,
+        against,
+        size,
+        drawn_on,
+    )?;
     write_atomically(&file, &canvas.finish())?;
     Ok(file)
 }
@@ -107,8 +116,8 @@ pub fn table(
         Path::to_path_buf,
     );
     let mut canvas = canvas(&file, size)?;
-    let table = (&table, name);
-    history::draw(&results, table, names, against, size, canvas.as_mut())?;
+    let drawn_on = canvas.as_mut();
+    history::draw(&results, &table, name, names, against, size, drawn_on)?;
     write_atomically(&file, &canvas.finish())?;
     Ok(file)
 }

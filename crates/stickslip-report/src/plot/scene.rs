@@ -217,7 +217,7 @@ impl<'a> Scene<'a> {
         let area = [width - bar - 2.0 * margin, height - top - 2.6 * em];
         let area = area.map(|n| n.max(16.0));
         let sheets = self.results.sheets(frame)?;
-        let (place, raster) = self.bodies(frame, &points, (at, area), self.seen, em, canvas);
+        let (place, raster) = self.bodies(frame, &points, [at, area], self.seen, em, canvas);
         let behind_by = 0.02 * self.skin.size();
         let drawn = marks::Drawn {
             see: &|x| place.place(self.camera.see(x)),
@@ -232,8 +232,8 @@ impl<'a> Scene<'a> {
             marks::arrows(&sheets, &drawn, self.skin.dim, canvas);
         }
         if self.field.as_ref().is_some_and(|f| f.array == "CPRESS") {
-            let most = self.most(&points);
-            marks::peak(most, &sheets, &drawn, &self.units, canvas);
+            let (x, most) = self.most(&points);
+            marks::peak(x, most, &sheets, &drawn, &self.units, canvas);
         }
         let title = self.results.title();
         let title = shorten(&title, 1.35 * em, width - 2.0 * margin);
@@ -258,10 +258,14 @@ impl<'a> Scene<'a> {
         if let Some(field) = &self.field {
             let x = width - bar - 0.4 * em;
             let values = values(&points, &self.skin, Some(field));
+            let shown = legend::Shown {
+                field,
+                unit: &behind(self.units.of_field(field)),
+                colours: &self.colours,
+                values: &values,
+            };
             legend::bar(
-                (field, &behind(self.units.of_field(field))),
-                &self.colours,
-                &values,
+                &shown,
                 [x, top + 0.5 * em],
                 [
                     bar,
@@ -282,7 +286,7 @@ impl<'a> Scene<'a> {
             let (place, _) = self.bodies(
                 frame,
                 &points,
-                (corner, size),
+                [corner, size],
                 self.bounds,
                 0.35 * em,
                 canvas,
@@ -325,7 +329,7 @@ impl<'a> Scene<'a> {
         &self,
         number: usize,
         points: &PointFields,
-        (at, area): ([f64; 2], [f64; 2]),
+        [at, area]: [[f64; 2]; 2],
         bounds: zoom::Box2,
         em: f64,
         canvas: &mut dyn Canvas,

@@ -98,7 +98,7 @@ impl Holds {
 
 impl View<'_> {
     /// What ends a quasi-static step, or an attempt that failed, from one time to another: at its end no forces of contact can balance the loads.
-    pub(crate) fn refuse_unbalanced(&self, (from, to): (f64, f64)) -> Option<(Finding, RunError)> {
+    pub(crate) fn refuse_unbalanced(&self, from: f64, to: f64) -> Option<(Finding, RunError)> {
         let holds = self.holds(to)?;
         let loads = |t: f64| -> Vec<f64> {
             let each = holds.motions.iter();

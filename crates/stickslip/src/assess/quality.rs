@@ -269,7 +269,7 @@ impl View<'_> {
     pub(crate) fn watch(&self, watches: &mut [Watch]) {
         let (u, t) = (&self.frame.state.u, self.frame.state.t);
         for (watch, interface) in watches.iter_mut().zip(self.contacts()) {
-            watch.note(interface, &look::resultant(interface, u), (u, t));
+            watch.note(interface, &look::resultant(interface, u), u, t);
         }
     }
 

@@ -16,7 +16,7 @@ pub use criterion::{Criterion, OnPlane, Rubbed};
 pub use dang_van::DangVan;
 pub use findley::Findley;
 pub use planes::{Directions, History, Worst, worst};
-pub use record::{Found, Increment, Maximum, Record};
+pub use record::{CycleIncrement, Found, Maximum, Record};
 pub use ruiz::{Ruiz, RuizWork};
 pub use smith_watson_topper::SmithWatsonTopper;
 

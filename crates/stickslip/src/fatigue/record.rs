@@ -14,7 +14,7 @@ pub struct Record {
 }
 
 /// What there is to note of an increment.
-pub struct Increment {
+pub struct CycleIncrement {
     /// A cycle begins with it.
     pub begins: bool,
     /// Stress of the points that are looked at `[Pa]`.
@@ -25,7 +25,7 @@ pub struct Increment {
 
 impl Record {
     /// Takes note of an increment.
-    pub fn enter(&mut self, increment: Increment) {
+    pub fn enter(&mut self, increment: CycleIncrement) {
         if increment.begins {
             self.clear();
         }

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::drift::Drift;
 use super::exact::Exact;
-use super::explicit::{Explicit, unstable};
+use super::explicit::{Explicit, RayleighDamping, unstable};
 use super::integrator::Integrator;
 use super::sight::frames_here;
 use crate::contact::look;
@@ -15,7 +15,7 @@ use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::model::ledger::Flow;
-use crate::solve::accepted::Accepted;
+use crate::solve::accepted::{Accepted, Effort};
 use crate::solve::solver::Solver;
 use crate::system::{Cause, Constraints, Force, Spinning, Stage, State, StepFailure};
 use crate::time::Trial;
@@ -52,8 +52,8 @@ impl Integrator for Explicit {
         };
         let mut at = predict(model, frame, &constraints, trial);
         let mut drift = Drift::new(model, frame, &constraints);
-        drift.predict(self, (&constraints.fixed, dt), &mut at);
-        let more = self.correct((model, &*contact), &constraints, &mut drift, (&mut at, dt))?;
+        drift.predict(self, &constraints.fixed, dt, &mut at);
+        let more = self.correct(model, &*contact, &constraints, &mut drift, &mut at, dt)?;
         let u = drift.place(&at.u);
         self.evaluate(model, frame, contact, &at, dt, &u)?;
         let external = if !self.loaded {
@@ -68,18 +68,13 @@ impl Integrator for Explicit {
         if !there.is_empty() {
             there.into_axes(acting.to_mut());
         }
-        self.hold(
-            (model, &mut *contact),
-            (&constraints, &drift),
-            (&acting, &more),
-            &at,
-        )?;
         let end = End {
             from: drift.from(),
             constraints: &constraints,
             external: &acting,
             dt,
         };
+        self.hold(model, contact, &end, &drift, &more, &at)?;
         let mut forces = vec![0.0; external.len()];
         let mut total = self.accelerate(&end, &mut at, &mut forces);
         self.turn(&end, &mut at, &mut forces, &drift, &mut total);
@@ -100,7 +95,10 @@ impl Integrator for Explicit {
             .help("lower `safety` of the scheme, or give a penalty that is less stiff"));
         }
         Ok(Accepted {
-            tally: contact.interfaces.iter().map(look::tally).sum(),
+            effort: Effort {
+                tally: contact.interfaces.iter().map(look::tally).sum(),
+                ..Effort::default()
+            },
             forces,
             contact: acted,
             external,
@@ -120,7 +118,8 @@ impl Integrator for Explicit {
 
     fn accept(&mut self) {
         // Damping as it is now is what it was before the next increment.
-        std::mem::swap(&mut self.damped, &mut self.damped_before);
+        let RayleighDamping { forces, before, .. } = &mut self.damping;
+        std::mem::swap(forces, before);
         self.exact = std::mem::take(&mut self.exact_after);
     }
 
@@ -216,7 +215,7 @@ impl Explicit {
     ) -> Result<(), StepFailure> {
         self.resist(model, u);
         model.links.transfer(&mut self.force);
-        self.damp(model, (u, &at.v));
+        self.damp(model, u, &at.v);
         self.out.reset(false);
         let frames = frames_here(model, u);
         let there = Spinning::new(&model.frames, u);
@@ -247,10 +246,12 @@ impl Explicit {
     /// Leads what is held exactly to where it holds at the end of the increment; the forces that rows had more for that, from the start on.
     fn correct(
         &mut self,
-        (model, contact): (&Model, &Contact),
+        model: &Model,
+        contact: &Contact,
         constraints: &Constraints,
         drift: &mut Drift,
-        (at, dt): (&mut State, f64),
+        at: &mut State,
+        dt: f64,
     ) -> Result<Vec<f64>, StepFailure> {
         (self.exact).lead(&model.links, contact, drift.from(), at.t);
         if self.exact.is_empty() {
@@ -259,8 +260,7 @@ impl Explicit {
         let mobility = self.mobility(constraints);
         let placed = drift.place(&at.u);
         let from = &drift.from().state.u;
-        let moved = (&mut at.u[..], &mut at.v[..]);
-        let more = (self.exact).correct(&mobility, (&model.links, dt), (from, &placed), moved)?;
+        let more = (self.exact).correct(&mobility, &model.links, dt, from, &placed, at)?;
         self.exact.restart(&mobility, &more, drift.start());
         Ok(more)
     }
@@ -268,19 +268,27 @@ impl Explicit {
     /// Lets what is held exactly go on holding: finds its forces, which balance those of all else at the end of the increment.
     fn hold(
         &mut self,
-        (model, contact): (&Model, &mut Contact),
-        (constraints, drift): (&Constraints, &Drift),
-        (external, more): (&[f64], &[f64]),
+        model: &Model,
+        contact: &mut Contact,
+        end: &End,
+        drift: &Drift,
+        more: &[f64],
         at: &State,
     ) -> Result<(), StepFailure> {
-        let mut exact = Exact::gather((model, drift.from()), contact, at.t, &self.exact);
+        let End {
+            from,
+            constraints,
+            external,
+            ..
+        } = *end;
+        let mut exact = Exact::gather(model, from, contact, at.t, &self.exact);
         if !exact.is_empty() {
             let mobility = self.mobility(constraints);
             let balance = |i: usize| external[i] - self.force[i] - self.out.residual[i];
             let mut forces: Vec<f64> = (0..external.len()).map(balance).collect();
             forces
                 .iter_mut()
-                .zip(&self.damped)
+                .zip(&self.damping.forces)
                 .for_each(|(f, d)| *f -= d);
             for spin in &self.spins {
                 let turning = drift.turning(spin, &at.v);
@@ -288,8 +296,7 @@ impl Explicit {
             }
             let a = exact.accelerations(&mobility, &forces);
             exact.balance(&mobility, &a)?;
-            let before = (&self.exact, more);
-            exact.act(before, (contact, &model.links), &mut self.out);
+            exact.act(&self.exact, more, contact, &model.links, &mut self.out);
         }
         self.exact_after = exact;
         Ok(())
@@ -310,8 +317,12 @@ impl Explicit {
             mass,
             inverse,
             force,
-            damped,
-            damped_before,
+            damping:
+                RayleighDamping {
+                    forces: damped,
+                    before: damped_before,
+                    ..
+                },
             out,
             ..
         } = self;
@@ -379,7 +390,7 @@ impl Explicit {
                 *m = end.external[i] - self.force[i] - self.out.residual[i];
             }
             if drift.has(spin) {
-                let gained = drift.kick(spin, (end.from, dt), moment, at);
+                let gained = drift.kick(spin, end.from, dt, moment, at);
                 total.turned[1] += 8.0 / (dt * dt) * gained;
                 total.kinetic += spin.square(spin.of(&at.v));
                 continue;

@@ -92,7 +92,7 @@ impl<'a> Drift<'a> {
     }
 
     /// Replaces rotations and spins at the end by those of a drift.
-    pub fn predict(&self, explicit: &Explicit, (fixed, dt): (&[bool], f64), at: &mut State) {
+    pub fn predict(&self, explicit: &Explicit, fixed: &[bool], dt: f64, at: &mut State) {
         if self.spinning.is_empty() {
             return;
         }
@@ -109,7 +109,7 @@ impl<'a> Drift<'a> {
             all.find(|s| self.dofs.locate(s.range().start).0 == point)
         };
         let rate = |point: usize, p: Vec3| of(point).map_or([0.0; 3], |s| s.turned_by(p));
-        let found = self.spinning.drift((&pushed, dt), rate);
+        let found = self.spinning.drift(&pushed, dt, rate);
         self.spinning.enter_prescribed(&mut at.u, fixed);
         for (point, [turned, momentum]) in self.spinning.points().zip(found) {
             let own = self.dofs.of(point, 0)..self.dofs.of(point + 1, 0);
@@ -130,13 +130,7 @@ impl<'a> Drift<'a> {
     }
 
     /// Lets a moment at the end act on a body; by how much its energy has grown more than by the mean of the moments at both ends.
-    pub fn kick(
-        &self,
-        spin: &Spin,
-        (from, dt): (&Frame, f64),
-        moment: Vec3,
-        at: &mut State,
-    ) -> f64 {
+    pub fn kick(&self, spin: &Spin, from: &Frame, dt: f64, moment: Vec3, at: &mut State) -> f64 {
         let first = self.moment(spin, &from.state);
         let rate = add_scaled(spin.of(&at.v), 0.5 * dt, spin.turned_by(moment));
         let turned = cross(scale(1.0 / self.length(spin), rate), spin.force(rate));

@@ -19,7 +19,7 @@ use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::solve::spin::Spin;
-use crate::system::{Assembler, Cause, Links, StepFailure};
+use crate::system::{Assembler, Cause, Links, State, StepFailure};
 
 /// What conjugate gradients leave of a right-hand side.
 const EXACT: f64 = 1e-13;
@@ -93,7 +93,8 @@ impl Mobility<'_> {
 impl Exact {
     /// The rows that hold at time `t`, those of ties as they were at the last evaluation. What is known of the forces `before` is kept.
     pub fn gather(
-        (model, frame): (&Model, &Frame),
+        model: &Model,
+        frame: &Frame,
         contact: &Contact,
         t: f64,
         before: &Exact,
@@ -265,10 +266,13 @@ impl Exact {
     pub fn correct(
         &self,
         mobility: &Mobility,
-        (links, dt): (&Links, f64),
-        (from, placed): (&[f64], &[f64]),
-        (u, v): (&mut [f64], &mut [f64]),
+        links: &Links,
+        dt: f64,
+        from: &[f64],
+        placed: &[f64],
+        at: &mut State,
     ) -> Result<Vec<f64>, StepFailure> {
+        let State { u, v, .. } = at;
         let ways: Vec<f64> = u.iter().zip(from).map(|(u, from)| u - from).collect();
         let (sums, along) = (self.sums(placed), self.sums(&ways));
         let targets = self.coupled.iter().map(|(_, target)| *target);
@@ -335,8 +339,10 @@ impl Exact {
     /// Hands the forces to couplings and ties and adds them to the residual: `before` are those that the rows had at the start of the increment, and `more` what they had as well to hold at its end.
     pub fn act(
         &self,
-        (before, more): (&Exact, &[f64]),
-        (contact, links): (&mut Contact, &Links),
+        before: &Exact,
+        more: &[f64],
+        contact: &mut Contact,
+        links: &Links,
         out: &mut Assembler,
     ) {
         let mut residual = Assembler::new(out.residual.len());

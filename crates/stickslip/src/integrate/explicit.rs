@@ -21,6 +21,35 @@ use crate::solve::spin::{Spin, mobility};
 use crate::system::{Assembler, Constraints, Spinning};
 use crate::time::scheme::Method;
 
+/// How fast interfaces and couplings let masses swing.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct ContactFrequency {
+    /// Sum of the highest squared frequencies `[1/s²]`.
+    pub squared: f64,
+    /// Sum of the rates at which they take velocity away `[1/s]`.
+    pub rate: f64,
+}
+
+/// Rayleigh damping.
+pub(crate) struct RayleighDamping {
+    /// Factors by dof; empty without damping.
+    pub(crate) factors: Vec<[f64; 2]>,
+    /// Forces now, and at the last accepted state.
+    pub(crate) forces: Vec<f64>,
+    pub(crate) before: Vec<f64>,
+}
+
+/// What is said of explicit increments when they begin.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Begun {
+    /// Mass added by mass scaling, relative to the mass there is.
+    pub mass_added: f64,
+    /// Longest stable increment, with its safety; 0 where any is stable.
+    pub stable: f64,
+}
+
+crate::keep!(Begun { mass_added, stable });
+
 /// What explicit increments need beside the state.
 pub(crate) struct Explicit {
     pub(crate) internal: InternalForce,
@@ -30,8 +59,7 @@ pub(crate) struct Explicit {
     pub(crate) inverse: Vec<f64>,
     /// Rotations of rigid bodies, which have no mass among those by dof.
     pub(crate) spins: Vec<Spin>,
-    /// Rayleigh factors by dof; empty without damping.
-    pub(crate) rayleigh: Vec<[f64; 2]>,
+    pub(crate) damping: RayleighDamping,
     pub(crate) springs: Vec<(usize, f64)>,
     /// Square of the highest frequency of the bodies.
     pub(crate) frequency: f64,
@@ -40,15 +68,10 @@ pub(crate) struct Explicit {
     pub(crate) force: Vec<f64>,
     /// Twice the strain energy, where bodies have frames of their own: it is no product of forces and displacements.
     pub(crate) stored: Option<f64>,
-    /// Forces of Rayleigh damping, now and at the last accepted state; empty without damping.
-    pub(crate) damped: Vec<f64>,
-    pub(crate) damped_before: Vec<f64>,
     /// Supports, if they do not move in this step.
     pub(crate) still: Option<Arc<Constraints>>,
-    /// Mass added by mass scaling, relative to the mass there is.
-    pub mass_added: f64,
-    /// Longest stable increment at the start, with its safety; 0 where any is stable.
-    pub at_start: f64,
+    /// What is said of it when it begins.
+    pub begun: Begun,
     /// Whether any load acts.
     pub(crate) loaded: bool,
     /// What is held exactly, at the last accepted state and after the attempt.
@@ -107,18 +130,19 @@ impl Explicit {
             inverse,
             spins: Spin::all(model),
             internal,
-            rayleigh,
+            damping: RayleighDamping {
+                factors: rayleigh,
+                forces: vec![0.0; dofs.count()],
+                before: vec![0.0; dofs.count()],
+            },
             springs,
             frequency,
             safety,
             out: Assembler::new(dofs.count()),
             force: vec![0.0; dofs.count()],
             stored: None,
-            damped: vec![0.0; dofs.count()],
-            damped_before: vec![0.0; dofs.count()],
             still: None,
-            mass_added: 0.0,
-            at_start: 0.0,
+            begun: Begun::default(),
             loaded: true,
             exact: Exact::default(),
             exact_after: Exact::default(),
@@ -127,8 +151,11 @@ impl Explicit {
     }
 
     /// Works out the forces of Rayleigh damping at these velocities.
-    pub(crate) fn damp(&mut self, model: &Model, (u, v): (&[f64], &[f64])) {
-        if self.rayleigh.is_empty() {
+    pub(crate) fn damp(&mut self, model: &Model, u: &[f64], v: &[f64]) {
+        let RayleighDamping {
+            factors, forces, ..
+        } = &mut self.damping;
+        if factors.is_empty() {
             return;
         }
         let bodies = &model.corotations;
@@ -138,13 +165,13 @@ impl Explicit {
             local = bodies.local(&turns, u);
             v = Cow::Owned(bodies.deforming(&turns, &local, &v));
         }
-        let both = self.rayleigh.iter().zip(v.iter());
+        let both = factors.iter().zip(v.iter());
         let scaled: Vec<f64> = both.map(|(r, v)| r[1] * v).collect();
-        self.internal.apply(&scaled, &mut self.damped);
-        for (i, d) in self.damped.iter_mut().enumerate() {
-            *d += self.rayleigh[i][0] * self.mass[i] * v[i];
+        self.internal.apply(&scaled, forces);
+        for (i, d) in forces.iter_mut().enumerate() {
+            *d += factors[i][0] * self.mass[i] * v[i];
         }
-        bodies.outward(&turns, &local, &mut self.damped);
+        bodies.outward(&turns, &local, forces);
     }
 
     /// Works out the forces of bodies and springs at these displacements.
@@ -167,8 +194,9 @@ impl Explicit {
     }
 
     /// The longest stable increment with interfaces of this squared frequency that take velocity away at this rate.
-    pub(crate) fn stable(&self, (contact, rate): (f64, f64)) -> f64 {
-        let omega = (self.frequency + contact).sqrt();
+    pub(crate) fn stable(&self, contact: ContactFrequency) -> f64 {
+        let ContactFrequency { squared, rate } = contact;
+        let omega = (self.frequency + squared).sqrt();
         if omega == 0.0 {
             // rigid bodies in free flight
             return match rate > 0.0 {
@@ -176,8 +204,16 @@ impl Explicit {
                 false => f64::INFINITY,
             };
         }
-        let stiffness = self.rayleigh.iter().fold(0.0_f64, |m, r| m.max(r[1]));
-        let mass = self.rayleigh.iter().fold(0.0_f64, |m, r| m.max(r[0]));
+        let stiffness = self
+            .damping
+            .factors
+            .iter()
+            .fold(0.0_f64, |m, r| m.max(r[1]));
+        let mass = self
+            .damping
+            .factors
+            .iter()
+            .fold(0.0_f64, |m, r| m.max(r[0]));
         // damping lags by half an increment
         let ratio = 0.5 * (stiffness * omega + (mass + rate) / omega);
         2.0 / omega / ((1.0 + ratio * ratio).sqrt() + ratio)
@@ -260,7 +296,7 @@ impl Explicit {
         let mut explicit = Explicit::new(model, dynamic.method);
         let plain: f64 = masses(model).iter().sum();
         let scaled: f64 = explicit.mass.iter().step_by(model.dofs.dim).sum();
-        explicit.mass_added = (scaled - plain) / plain.max(f64::MIN_POSITIVE);
+        explicit.begun.mass_added = (scaled - plain) / plain.max(f64::MIN_POSITIVE);
         let before = frame.ledger.kinetic;
         model.apply_initial_velocities(frame.step, &mut frame.state.v);
         let energy = &mut frame.ledger;
@@ -292,13 +328,14 @@ impl Explicit {
             let t = frame.state.t;
             return Err(unstable(&step.name, t, given, limit, step.end - step.start).into());
         }
-        explicit.at_start = if stable.is_finite() { stable } else { 0.0 };
+        explicit.begun.stable = if stable.is_finite() { stable } else { 0.0 };
         frame.load = frame.external(model, soon);
         frame.contact = initial_contact(model, frame, contact, soon, dt).map_err(|e| e.at(soon))?;
         explicit.start_forces(model, frame, contact);
         explicit.start_acceleration(model, frame, &constraints);
         explicit.start_exactly(model, frame, contact, &constraints)?;
-        explicit.damped_before.clone_from(&explicit.damped);
+        let RayleighDamping { forces, before, .. } = &mut explicit.damping;
+        before.clone_from(forces);
         explicit.still = still.then(|| Arc::new(constraints));
         Ok(explicit)
     }
@@ -317,13 +354,13 @@ impl Explicit {
         energy.initial += strain - energy.strain;
         energy.strain = strain;
         model.links.transfer(&mut self.force);
-        self.damp(model, (&frame.state.u, &frame.state.v));
+        self.damp(model, &frame.state.u, &frame.state.v);
     }
 
     /// Accelerations at the start, and what holds the dofs that have none.
     fn start_acceleration(&self, model: &Model, frame: &mut Frame, constraints: &Constraints) {
         let (load, contact) = (&frame.load, &frame.contact);
-        let balance = |i: usize| load[i] - (self.force[i] + self.damped[i]) - contact[i];
+        let balance = |i: usize| load[i] - (self.force[i] + self.damping.forces[i]) - contact[i];
         let fixed = constraints.fixed.iter().enumerate();
         let (mut a, forces): (Vec<f64>, Vec<f64>) = fixed
             .map(|(i, fixed)| match fixed {
@@ -362,7 +399,7 @@ impl Explicit {
     ) -> Result<(), Error> {
         let step = &model.steps[frame.step];
         let soon = step.start + AFTER * (step.end - step.start);
-        let mut exact = Exact::gather((model, frame), contact, soon, &Exact::default());
+        let mut exact = Exact::gather(model, frame, contact, soon, &Exact::default());
         if exact.is_empty() {
             return Ok(());
         }
@@ -370,14 +407,14 @@ impl Explicit {
         let found = exact.balance(&self.mobility(constraints), &frame.state.a);
         found.map_err(|e| e.at(soon))?;
         let mut more = Assembler::new(frame.contact.len());
-        exact.act((&Exact::default(), &[]), (contact, &model.links), &mut more);
+        exact.act(&Exact::default(), &[], contact, &model.links, &mut more);
         let none = vec![0.0; more.residual.len()];
         Spinning::new(&model.frames, &frame.state.u).outward(&none, &mut more.residual);
         for (contact, f) in frame.contact.iter_mut().zip(&more.residual) {
             *contact += f;
         }
         exact.add_forces(&acting);
-        exact.act((&Exact::default(), &[]), (contact, &model.links), &mut more);
+        exact.act(&Exact::default(), &[], contact, &model.links, &mut more);
         let memory = &mut Arc::make_mut(&mut frame.contacts).couplings;
         contact.couplings.start_exactly(memory);
         self.start_acceleration(model, frame, constraints);
@@ -395,7 +432,12 @@ impl Explicit {
     }
 
     /// Sums of the highest squared frequencies of interfaces and couplings now, and of the rates at which interfaces take velocity away.
-    pub fn contact_frequency(&self, model: &Model, frame: &Frame, contact: &Contact) -> (f64, f64) {
+    pub fn contact_frequency(
+        &self,
+        model: &Model,
+        frame: &Frame,
+        contact: &Contact,
+    ) -> ContactFrequency {
         let step = &model.steps[frame.step];
         let all = contact.interfaces.iter().zip(&frame.contacts.interfaces);
         let links = &model.links;
@@ -407,12 +449,15 @@ impl Explicit {
         let t = frame.state.t + AFTER * (step.end - step.start);
         let couplings = (contact.couplings).highest_frequency(t, &self.inverse, links);
         let dashpots = (contact.couplings).highest_rate(t, &self.inverse, links);
-        (squared + couplings, rate + dashpots)
+        ContactFrequency {
+            squared: squared + couplings,
+            rate: rate + dashpots,
+        }
     }
 
     /// The longest increment that is stable where nothing touches, with its safety.
     pub fn stable_alone(&self) -> f64 {
-        self.safety * self.stable((0.0, 0.0))
+        self.safety * self.stable(ContactFrequency::default())
     }
 
     /// The longest increment that is stable now, with its safety.
@@ -441,8 +486,7 @@ pub(crate) struct ExplicitState {
     damped: Vec<f64>,
     damped_before: Vec<f64>,
     still: Option<Arc<Constraints>>,
-    mass_added: f64,
-    at_start: f64,
+    begun: Begun,
     loaded: bool,
     exact: Exact,
 }
@@ -451,8 +495,7 @@ crate::keep!(ExplicitState {
     damped,
     damped_before,
     still,
-    mass_added,
-    at_start,
+    begun,
     loaded,
     exact
 });
@@ -461,11 +504,10 @@ impl Explicit {
     /// What it takes along.
     pub fn state(&self) -> ExplicitState {
         ExplicitState {
-            damped: self.damped.clone(),
-            damped_before: self.damped_before.clone(),
+            damped: self.damping.forces.clone(),
+            damped_before: self.damping.before.clone(),
             still: self.still.clone(),
-            mass_added: self.mass_added,
-            at_start: self.at_start,
+            begun: self.begun,
             loaded: self.loaded,
             exact: self.exact.clone(),
         }
@@ -473,15 +515,18 @@ impl Explicit {
 
     /// Goes on with that.
     pub fn again(model: &Model, method: Method, state: ExplicitState) -> Self {
+        let explicit = Explicit::new(model, method);
         Explicit {
-            damped: state.damped,
-            damped_before: state.damped_before,
+            damping: RayleighDamping {
+                forces: state.damped,
+                before: state.damped_before,
+                ..explicit.damping
+            },
             still: state.still,
-            mass_added: state.mass_added,
-            at_start: state.at_start,
+            begun: state.begun,
             loaded: state.loaded,
             exact: state.exact,
-            ..Explicit::new(model, method)
+            ..explicit
         }
     }
 }

@@ -3,7 +3,7 @@
 use super::impulse::{is_impulse, kicked, stop};
 use super::integrator::Integrator;
 use super::quasi_static::pairs;
-use super::sight::Acting;
+use super::sight::{Acting, Ended};
 use crate::contact::look;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -68,6 +68,22 @@ struct Guess {
     scale: f64,
 }
 
+/// What an increment starts from.
+#[derive(Clone, Copy)]
+struct IncrementStart<'a> {
+    model: &'a Model,
+    frame: &'a Frame,
+    solver: &'a Solver,
+}
+
+/// How bodies move in an increment, and what the forces of the interfaces at its start and end count.
+#[derive(Clone, Copy)]
+struct IncrementScheme<'a> {
+    increment: &'a Increment<'a>,
+    weights: [f64; 2],
+    spinning: &'a Spinning,
+}
+
 /// What the equilibrium at the stage is sought with.
 struct Balance<'a> {
     guess: &'a Guess,
@@ -89,9 +105,9 @@ impl Integrator for Implicit {
         match model.corotations.is_empty() && !model.frames.any_rigid() {
             true => {
                 let acting = Acting::new(model, frame, trial.to);
-                self.increment((model, frame), acting, contact, solver, trial)
+                self.increment(model, frame, acting, contact, solver, trial)
             }
-            false => self.turning((model, frame), contact, solver, trial),
+            false => self.turning(model, frame, contact, solver, trial),
         }
     }
 }
@@ -100,7 +116,8 @@ impl Implicit {
     /// Tries an increment between states along the same axes.
     pub(super) fn increment(
         &self,
-        (model, frame): (&Model, &Frame),
+        model: &Model,
+        frame: &Frame,
         acting: Acting,
         contact: &mut Contact,
         solver: &mut Solver,
@@ -118,7 +135,7 @@ impl Implicit {
         let times = [trial.from, trial.to];
         // A trial increment of Euler's method finds forces, and hands nothing on.
         let impulse = self.alphas != BACKWARD
-            && is_impulse((model, frame), &self.dynamic, contact, inertia, times);
+            && is_impulse(model, frame, &self.dynamic, contact, inertia, times);
         let scheme = self.meeting(impulse);
         let weights = scheme.weights(impulse);
         let interfaces = contact.interfaces.iter_mut();
@@ -134,7 +151,7 @@ impl Implicit {
         if impulse && !frame.contact.is_empty() {
             let kick = kicked(model, inertia, &fixed, &frame.contact)?;
             from.a.iter_mut().zip(kick).for_each(|(a, k)| *a += k);
-            inertia.lead(model, contact, (trial.from, &fixed), &mut from.a);
+            inertia.lead(model, contact, trial.from, &fixed, &mut from.a);
         }
         let increment = Increment {
             alphas: scheme.alphas,
@@ -150,13 +167,22 @@ impl Implicit {
         model.links.impose(&mut u);
         let still = Spinning::default();
         let spinning = sight.as_ref().map_or(&still, |sight| &sight.spinning);
-        let now = (&increment, weights, spinning);
-        let mut guess = scheme.guess(model, frame, solver, now, (u, &external));
+        let now = IncrementScheme {
+            increment: &increment,
+            weights,
+            spinning,
+        };
+        let start = IncrementStart {
+            model,
+            frame,
+            solver,
+        };
+        let mut guess = scheme.guess(start, now, u, &external);
         let (mut gain, mut shift) = increment.rate();
         if let Some(sight) = &sight {
             // Contact is in space.
             sight.turn_out(&mut shift);
-            sight.rate(model, &increment, (&fixed, &mut gain, &mut shift));
+            sight.rate(model, &increment, &fixed, &mut gain, &mut shift);
         }
         let rate = Rate {
             gain: &gain,
@@ -182,10 +208,18 @@ impl Implicit {
             };
             passes += 1;
             sight.load(model, &at.u, trial.to, &mut external);
-            let next = scheme.guess(model, frame, solver, now, (at.u.clone(), &external));
+            let start = IncrementStart {
+                model,
+                frame,
+                solver,
+            };
+            let next = scheme.guess(start, now, at.u.clone(), &external);
             let (_, diagonal, _) = in_motion(&solver.inertia).matrix();
-            let end = (next.forces.as_slice(), next.scale);
-            match sight.met(model, (&found.0, end), (&fixed, diagonal), passes)? {
+            let end = Ended {
+                forces: &next.forces,
+                size: next.scale,
+            };
+            match sight.met(model, &found.0, end, &fixed, diagonal, passes)? {
                 Some(converged) => break (converged, next.internal),
                 None => guess = next,
             }
@@ -197,11 +231,16 @@ impl Implicit {
         }
         model.links.impose(&mut at.v);
         model.links.impose(&mut at.a);
+        let start = IncrementStart {
+            model,
+            frame,
+            solver,
+        };
         let solved = Solved {
             reactions: converged.forces.iter().map(|f| weights[1] * f).collect(),
             contact: converged.contact.clone(),
             external,
-            elastic: scheme.elastic_work(model, frame, solver, &at.u, &internal),
+            elastic: scheme.elastic_work(start, &at.u, &internal),
             internal,
             state: at,
         };
@@ -209,17 +248,14 @@ impl Implicit {
         let (easy, travel) = scheme.judge(model, frame, inertia, dt, &solved)?;
         scheme.locate(model, frame, contact, trial)?;
         let mut solved = solved;
-        let weight = (weights[1], impulse);
-        let from_there = (&fixed[..], &from.a[..], weight);
-        let mut flow = scheme.flow((model, frame), solver, from_there, (&solved, spinning));
+        let mut flow = scheme.flow(start, now, &fixed, impulse, &solved);
         let inertia = in_motion(&solver.inertia);
         if impulse {
             let kick = kicked(model, inertia, &fixed, &solved.contact)?;
             let part = 0.5 / scheme.alphas.beta - 1.0;
             let accelerations = solved.state.a.iter_mut().zip(&kick);
             accelerations.for_each(|(a, k)| *a += part * k);
-            let at = (trial.to, fixed.as_slice());
-            inertia.lead(model, contact, at, &mut solved.state.a);
+            inertia.lead(model, contact, trial.to, &fixed, &mut solved.state.a);
             let at = solved.state.clone();
             let stage = Stage {
                 from: &frame.state,
@@ -228,10 +264,10 @@ impl Implicit {
                 rate: Some(rate),
                 frames,
             };
-            let bodies = (model, inertia, fixed.as_slice());
             let mut forces = contact.forces(&frame.contacts);
-            flow.impact = stop(bodies, &mut forces.interfaces, &stage, &mut solved.state.v)?;
-            inertia.lead(model, contact, (trial.to, &fixed), &mut solved.state.v);
+            let (interfaces, v) = (&mut forces.interfaces, &mut solved.state.v);
+            flow.impact = stop(model, inertia, &fixed, interfaces, &stage, v)?;
+            inertia.lead(model, contact, trial.to, &fixed, &mut solved.state.v);
         }
         Ok(Accepted {
             flow,
@@ -277,33 +313,29 @@ impl Implicit {
     }
 
     /// Elastic forces at the stage, with displacements and their forces at the end.
-    fn elastic_at_stage(
-        &self,
-        model: &Model,
-        frame: &Frame,
-        solver: &Solver,
-        u: &[f64],
-        internal: &[f64],
-    ) -> Vec<f64> {
+    fn elastic_at_stage(&self, start: IncrementStart, u: &[f64], internal: &[f64]) -> Vec<f64> {
+        let IncrementStart {
+            model,
+            frame,
+            solver,
+        } = start;
         let start = (frame.state.u.as_slice(), frame.motion.internal.as_slice());
         solver.elastic_between(model, (self.alphas.alpha_f, start), u, internal)
     }
 
     /// Work of the elastic forces of the scheme over the increment, less what is stored: for linear ones `(½ - α_f) Δuᵀ K Δu`.
-    fn elastic_work(
-        &self,
-        model: &Model,
-        frame: &Frame,
-        solver: &Solver,
-        u: &[f64],
-        internal: &[f64],
-    ) -> f64 {
+    fn elastic_work(&self, start: IncrementStart, u: &[f64], internal: &[f64]) -> f64 {
+        let IncrementStart {
+            model,
+            frame,
+            solver,
+        } = start;
         let du = difference(u, &frame.state.u);
         if model.corotations.is_empty() {
             let change = difference(internal, &frame.motion.internal);
             return (0.5 - self.alphas.alpha_f) * dot(&du, &change);
         }
-        let stage = self.elastic_at_stage(model, frame, solver, u, internal);
+        let stage = self.elastic_at_stage(start, u, internal);
         let stored = |u: &[f64]| solver.strain_energy(model, u);
         dot(&du, &stage) - (stored(u) - stored(&frame.state.u))
     }
@@ -311,18 +343,15 @@ impl Implicit {
     /// The forces where the increment is expected to end.
     fn guess(
         &self,
-        model: &Model,
-        frame: &Frame,
-        solver: &Solver,
-        (increment, weights, spinning): (&Increment, [f64; 2], &Spinning),
-        (u, external): (Vec<f64>, &[f64]),
+        start: IncrementStart,
+        scheme: IncrementScheme,
+        u: Vec<f64>,
+        external: &[f64],
     ) -> Guess {
-        let internal = solver.elastic(model, &u);
-        let stage = self.elastic_at_stage(model, frame, solver, &u, &internal);
-        let known = (stage.as_slice(), external, weights[0]);
-        let motion = (increment, spinning);
-        let (mut forces, scale) = self.balance((model, frame), solver, motion, &u, known);
-        let weight = weights[1];
+        let internal = start.solver.elastic(start.model, &u);
+        let stage = self.elastic_at_stage(start, &u, &internal);
+        let (mut forces, scale) = self.balance(start, scheme, &u, &stage, external);
+        let weight = scheme.weights[1];
         forces.iter_mut().for_each(|f| *f /= weight);
         Guess {
             u,
@@ -442,12 +471,22 @@ impl Implicit {
     /// stage, and the size of what balances in them.
     fn balance(
         &self,
-        (model, frame): (&Model, &Frame),
-        solver: &Solver,
-        (increment, spinning): (&Increment, &Spinning),
+        start: IncrementStart,
+        scheme: IncrementScheme,
         u: &[f64],
-        (internal, external, old): (&[f64], &[f64], f64),
+        internal: &[f64],
+        external: &[f64],
     ) -> (Vec<f64>, f64) {
+        let IncrementStart {
+            model,
+            frame,
+            solver,
+        } = start;
+        let IncrementScheme {
+            increment,
+            weights: [old, _],
+            spinning,
+        } = scheme;
         let Alphas {
             alpha_m, alpha_f, ..
         } = self.alphas;
@@ -463,7 +502,7 @@ impl Implicit {
         if !spinning.is_empty() {
             let momenta = [&from.v, &v].map(|v| inertia.mass_times(v));
             let ends = [(&from.v[..], &momenta[0][..]), (&v, &momenta[1])];
-            spinning.add_gyroscopic((u, increment.dt, alpha_f), ends, &mut inertial);
+            spinning.add_gyroscopic(u, increment.dt, alpha_f, ends, &mut inertial);
             spinning.lean(u, start.0.to_mut());
             spinning.lean(u, start.1.to_mut());
         }
@@ -494,18 +533,29 @@ impl Implicit {
     /// `w` is the weight of the interfaces' forces `R` at the end. For the trapezoidal rule it vanishes but for the last residual.
     fn flow(
         &self,
-        (model, frame): (&Model, &Frame),
-        solver: &Solver,
-        (fixed, a, (weight, impulse)): (&[bool], &[f64], (f64, bool)),
-        (solved, spinning): (&Solved, &Spinning),
+        start: IncrementStart,
+        scheme: IncrementScheme,
+        fixed: &[bool],
+        impulse: bool,
+        solved: &Solved,
     ) -> Flow {
+        let IncrementStart {
+            model,
+            frame,
+            solver,
+        } = start;
+        let IncrementScheme {
+            increment,
+            weights: [_, weight],
+            spinning,
+        } = scheme;
         let alphas = self.alphas;
         let inertia = in_motion(&solver.inertia);
         let (from, to) = (&frame.state, &solved.state);
         let du = difference(&to.u, &from.u);
         let dv = difference(&to.v, &from.v);
         let mean_v: Vec<f64> = mix(0.5, &from.v, &to.v);
-        let stage_a = mix(alphas.alpha_m, a, &to.a);
+        let stage_a = mix(alphas.alpha_m, &increment.from.a, &to.a);
         let half = 0.5 - alphas.alpha_f;
         let mean_f = mix(0.5, &frame.load, &solved.external);
         let mut work = dot(&mean_f, &du);
@@ -522,8 +572,8 @@ impl Implicit {
         if !spinning.is_empty() {
             let momenta = [&from.v, &to.v].map(|v| inertia.mass_times(v));
             let ends = [(&from.v[..], &momenta[0][..]), (&to.v, &momenta[1])];
-            let at = (&to.u[..], to.t - from.t, alphas.alpha_f);
-            spinning.add_gyroscopic(at, ends, &mut inertial);
+            let dt = to.t - from.t;
+            spinning.add_gyroscopic(&to.u, dt, alphas.alpha_f, ends, &mut inertial);
         }
         let mut numerical =
             dot(&du, &inertial) - dot(&mean_v, &inertia.mass_times(&dv)) + solved.elastic + contact

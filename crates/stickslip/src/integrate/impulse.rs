@@ -38,7 +38,8 @@ const LOST: f64 = 1e6;
 
 /// Whether contact is an impulse over an increment: of masses alone, with what does not give way and does not move.
 pub(super) fn is_impulse(
-    (model, frame): (&Model, &Frame),
+    model: &Model,
+    frame: &Frame,
     dynamic: &Dynamic,
     contact: &Contact,
     inertia: &Inertia,
@@ -69,7 +70,9 @@ pub(super) fn kicked(
 
 /// Stops pressed points, and gives the energy that this and the way to where they met have taken `[J]`.
 pub(super) fn stop(
-    (model, inertia, fixed): (&Model, &Inertia, &[bool]),
+    model: &Model,
+    inertia: &Inertia,
+    fixed: &[bool],
     interfaces: &mut [InterfaceForce],
     stage: &Stage,
     v: &mut Vec<f64>,

@@ -43,7 +43,8 @@ impl Implicit {
         frame: &mut Frame,
         contact: &mut Contact,
         solver: &mut Solver,
-        (dynamic, alphas): (Dynamic, Alphas),
+        dynamic: Dynamic,
+        alphas: Alphas,
     ) -> Result<Self, Error> {
         let implicit = Implicit { dynamic, alphas };
         start_motion(model, frame, contact, solver, &dynamic);
@@ -223,7 +224,7 @@ fn start_motion(
         Some(inertia) if inertia.suits(contact, dynamic) => inertia,
         old => {
             let keys = old.map_or(solver.keys, |inertia| inertia.keys());
-            Inertia::new((model, contact), entries(&solver.stiffness), dynamic, keys)
+            Inertia::new(model, contact, entries(&solver.stiffness), dynamic, keys)
         }
     };
     let masses = inertia.at_points(model);
@@ -451,7 +452,7 @@ fn initial_acceleration(
         &mut frame.state.a,
         &mut frame.contact,
     )?;
-    inertia.lead(model, contact, (t, &fixed), &mut frame.state.v);
+    inertia.lead(model, contact, t, &fixed, &mut frame.state.v);
     model.links.impose(&mut frame.state.a);
     Ok(())
 }

@@ -29,14 +29,14 @@ impl Integrator for QuasiStatic {
             return Err(broken.clone());
         }
         if model.turns_freely() {
-            return self.turning((model, frame), contact, solver, trial);
+            return self.turning(model, frame, contact, solver, trial);
         }
         let external = frame.external(model, trial.to);
         let constraints = frame.constraints(model, trial.to);
         (contact.couplings).fit(&solver.diagonal, &constraints.fixed, &model.links);
         solver.carry_anchors(model, frame, &constraints, trial);
         if solver.condenser.at_rest().is_some() {
-            return solver.attempt_condensed((model, frame), contact, external, constraints, trial);
+            return solver.attempt_condensed(model, frame, contact, external, constraints, trial);
         }
         let mut at = frame.extrapolated(trial);
         turn_with_supports(model, &frame.state.u, &constraints, &mut at.u);
@@ -59,7 +59,7 @@ impl Integrator for QuasiStatic {
         };
         Ok(Accepted {
             flow: Flow {
-                work: frame.work(&fixed, (&at.u, &converged.forces), &external),
+                work: frame.work(&fixed, &at.u, &converged.forces, &external),
                 transmitted: frame.transmitted(model, &at.u, &converged.forces, &external),
                 ..Flow::default()
             },
@@ -115,12 +115,7 @@ impl Frame {
     /// Work of loads and reactions over an increment by the trapezoidal rule: exact for forces that vary linearly. It begins with what held the last
     /// accepted state in balance, not with what an amplitude says of its time: a load that is there at once, or changes from one step to the next, is
     /// taken from one equilibrium to the other like any other, and a support that lets go has done its part until then.
-    pub(crate) fn work(
-        &self,
-        fixed: &[bool],
-        (u, forces): (&[f64], &[f64]),
-        external: &[f64],
-    ) -> f64 {
+    pub(crate) fn work(&self, fixed: &[bool], u: &[f64], forces: &[f64], external: &[f64]) -> f64 {
         let mut work = 0.0;
         for (i, after) in external.iter().enumerate() {
             let before = self.load[i] + self.forces[i];

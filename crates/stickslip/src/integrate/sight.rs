@@ -48,6 +48,13 @@ impl<'a> Acting<'a> {
     }
 }
 
+/// Forces where an increment ended without those of interfaces, and the size of what balances in them `[N]`.
+#[derive(Clone, Copy)]
+pub(super) struct Ended<'a> {
+    pub forces: &'a [f64],
+    pub size: f64,
+}
+
 /// From where bodies that turn freely are seen in an increment.
 pub(super) struct Sight<'a> {
     /// The start, along the axes of space.
@@ -145,7 +152,7 @@ impl<'a> Sight<'a> {
 
     /// Where bodies that turn freely are expected to end. Their accelerations have no part in it: those of a scheme without dissipation ring.
     pub fn expect(&self, model: &Model, start: &State, dt: f64, u: &mut [f64]) {
-        model.corotations.go_on((&start.u, &start.v), dt, u);
+        model.corotations.go_on(&start.u, &start.v, dt, u);
     }
 
     /// Lets the points of rigid bodies that nothing holds have the velocities that Newmark's relations give their bodies.
@@ -153,7 +160,9 @@ impl<'a> Sight<'a> {
         &self,
         model: &Model,
         increment: &Increment,
-        (fixed, gain, shift): (&[bool], &mut [f64], &mut [f64]),
+        fixed: &[bool],
+        gain: &mut [f64],
+        shift: &mut [f64],
     ) {
         let (dofs, from) = (model.dofs, increment.from);
         if !model.frames.any_rigid() {
@@ -224,15 +233,17 @@ impl<'a> Sight<'a> {
     pub fn met(
         &self,
         model: &Model,
-        (converged, (end, size_there)): (&Converged, (&[f64], f64)),
-        (fixed, diagonal): (&[bool], &[f64]),
+        converged: &Converged,
+        end: Ended,
+        fixed: &[bool],
+        diagonal: &[f64],
         passes: usize,
     ) -> Result<Option<Converged>, StepFailure> {
         let size = |forces: &[f64]| {
             let free = forces.iter().zip(fixed).filter(|(_, fixed)| !**fixed);
             free.map(|(f, _)| f * f).sum::<f64>().sqrt()
         };
-        let both = end.iter().zip(&converged.contact);
+        let both = end.forces.iter().zip(&converged.contact);
         let forces: Vec<f64> = both.map(|(a, b)| a + b).collect();
         let off = size(&forces);
         // Of places: what strains is a difference of these.
@@ -243,7 +254,7 @@ impl<'a> Sight<'a> {
             .zip(diagonal.chunks(model.dofs.dim));
         let worst = places.map(|(x, k)| (norm(*x) * k[0]).powi(2)).sum::<f64>();
         let rounding = ROUNDINGS * f64::EPSILON * worst.sqrt();
-        let scale = size_there.max(size(&converged.contact));
+        let scale = end.size.max(size(&converged.contact));
         let enough = (model.settings.tolerance * scale)
             .max(LEFT * size(&converged.forces))
             .max(rounding);

@@ -6,7 +6,7 @@
 
 use super::implicit::{Implicit, difference};
 use super::quasi_static::{QuasiStatic, pairs};
-use super::sight::{Acting, Sight, in_space};
+use super::sight::{Acting, Ended, Sight, in_space};
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
@@ -22,7 +22,8 @@ impl Implicit {
     /// Tries an increment in which bodies turn freely.
     pub(super) fn turning(
         &self,
-        (model, frame): (&Model, &Frame),
+        model: &Model,
+        frame: &Frame,
         contact: &mut Contact,
         solver: &mut Solver,
         trial: Trial,
@@ -39,7 +40,7 @@ impl Implicit {
             external,
             sight: Some(sight),
         };
-        let found = self.increment((model, &inside), acting, contact, solver, trial);
+        let found = self.increment(model, &inside, acting, contact, solver, trial);
         found.map(|accepted| in_space(model, &outlook, accepted))
     }
 }
@@ -48,7 +49,8 @@ impl QuasiStatic {
     /// Tries an increment in which bodies turn freely. Each pass sees them from where the one before has left them: nothing but their strain is missed then.
     pub(super) fn turning(
         &self,
-        (model, frame): (&Model, &Frame),
+        model: &Model,
+        frame: &Frame,
         contact: &mut Contact,
         solver: &mut Solver,
         trial: Trial,
@@ -112,14 +114,16 @@ fn pass(
     let internal = solver.elastic(model, &at.u);
     let size = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
     let left = difference(&internal, &external);
-    let end = (left.as_slice(), size(&external).max(size(&internal)));
-    let ends = (&fixed[..], &solver.diagonal[..]);
-    let met = sight.met(model, (&converged, end), ends, passes)?;
+    let end = Ended {
+        forces: &left,
+        size: size(&external).max(size(&internal)),
+    };
+    let met = sight.met(model, &converged, end, &fixed, &solver.diagonal, passes)?;
     let found = met.as_ref().unwrap_or(&converged);
     let forces = found.forces.clone();
     let accepted = Accepted {
         flow: Flow {
-            work: inside.work(&fixed, (&at.u, &forces), &external),
+            work: inside.work(&fixed, &at.u, &forces, &external),
             ..Flow::default()
         },
         strain: solver.strain_energy(model, &at.u),

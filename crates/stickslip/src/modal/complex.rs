@@ -22,7 +22,8 @@ const DOUBTFUL: f64 = 1e-4;
 /// The modes that a step asks for.
 pub(crate) fn modes(
     model: &Model,
-    (frame, contact): (&Frame, &mut Contact),
+    frame: &Frame,
+    contact: &mut Contact,
     linear: &Linear,
     plan: &ComplexPlan,
 ) -> Result<ModalOutcome, RunError> {
@@ -30,7 +31,7 @@ pub(crate) fn modes(
     let mut root = Root::new(&shifted, frame)?;
     let mut solves = root.pairs.len();
     let asked = (plan.count, plan.to);
-    let found = solve(&shifted, &root, asked, false, &mut solves);
+    let found = solve(&shifted, &root, plan.count, plan.to, false, &mut solves);
     let mut out = ModalOutcome {
         step: model.steps[frame.step].name.clone(),
         complex: true,
@@ -76,15 +77,13 @@ pub(crate) fn modes(
         let mut over = Over::new(&shifted, over, &mut at_speed);
         let tried = plan.map.as_ref().map_or(vec![1.0], MapPlan::tried);
         let before = solves;
-        let known = (found.as_slice(), tried.as_slice());
-        let (reduced, estimate) = map::space(&mut over, asked, known, &mut solves);
+        let (reduced, estimate) = map::space(&mut over, asked, &found, &tried, &mut solves);
         if plan.export {
             out.export = export::matrices(&shifted);
             out.arrays = export::arrays(&shifted, &root, &reduced);
         }
         if let Some(plan) = &plan.map {
-            let reduced = (reduced, &estimate);
-            let mut map = map::rows(&mut over, reduced, plan, asked, &mut solves);
+            let mut map = map::rows(&mut over, reduced, &estimate, plan, asked, &mut solves);
             map.solves = solves - before;
             out.notes.extend(map::notes(&map));
             out.map = Some(map);

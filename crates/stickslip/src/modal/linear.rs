@@ -108,7 +108,7 @@ impl Linear {
                 rows: row.factors.clone(),
                 ..ContactBlock::default()
             };
-            parts.couple(&model.links, block, (stiffness, damping));
+            parts.couple(&model.links, block, stiffness, damping);
         }
         let bound = Bound::new(equations, &fixed);
         let lines = points(step, frame, contact, 1.0);
@@ -401,14 +401,14 @@ struct Parts {
 
 impl Parts {
     /// Adds a row of a coupling with its stiffness and damping.
-    fn couple(&mut self, links: &Links, block: ContactBlock, values: (f64, f64)) {
+    fn couple(&mut self, links: &Links, block: ContactBlock, stiffness: f64, damping: f64) {
         let mut block = block;
         let n = block.dofs.len();
         block.rows.resize(3 * n, 0.0);
         block.change = vec![0.0; 3 * n];
         let block = links.transform(&block).unwrap_or(block);
         let row = &block.rows[..block.dofs.len()];
-        for (value, damping) in [(values.0, false), (values.1, true)] {
+        for (value, damping) in [(stiffness, false), (damping, true)] {
             if value != 0.0 {
                 self.dense(&block.dofs, row, row, value, damping);
             }
@@ -436,8 +436,9 @@ impl Parts {
     /// Puts bodies and blocks together.
     fn assemble(self, model: &Model, contact: &Contact, solver: &Solver, linear: &mut Linear) {
         let dim = model.dofs.dim;
-        let stiffness: Vec<_> = self.stiffness.iter().map(|b| by_points(b, dim)).collect();
-        let damping: Vec<_> = self.damping.iter().map(|b| by_points(b, dim)).collect();
+        let each = |(dofs, dense): &(Vec<usize>, Vec<f64>)| by_points(dofs, dense, dim);
+        let stiffness: Vec<_> = self.stiffness.iter().map(each).collect();
+        let damping: Vec<_> = self.damping.iter().map(each).collect();
         let mut all = stiffness.clone();
         // One pattern for all matrices.
         all.extend(damping.iter().map(|(p, d)| (p.clone(), vec![0.0; d.len()])));
@@ -446,7 +447,7 @@ impl Parts {
             false => entries(&solver.stiffness).with_groups(&all),
         };
         let kind = MassKind::default();
-        let inertia = Inertia::of_modes((model, contact), &linear.stiffness, kind);
+        let inertia = Inertia::of_modes(model, contact, &linear.stiffness, kind);
         let (mass, rayleigh) = inertia.into_matrices();
         linear.mass = mass;
         linear.damping = rayleigh;
@@ -472,7 +473,7 @@ fn moved(row: &Row, links: &Links) -> Sparse {
 }
 
 /// A block by dofs as one over all dofs of its points.
-fn by_points((dofs, dense): &(Vec<usize>, Vec<f64>), dim: usize) -> (Vec<usize>, Vec<f64>) {
+fn by_points(dofs: &[usize], dense: &[f64], dim: usize) -> (Vec<usize>, Vec<f64>) {
     let points: BTreeSet<usize> = dofs.iter().map(|d| d / dim).collect();
     let points: Vec<usize> = points.into_iter().collect();
     let width = points.len() * dim;

@@ -111,7 +111,8 @@ impl<'a> Over<'a> {
 pub(crate) fn space(
     over: &mut Over,
     asked: Asked,
-    (found, tried): (&[Eigen], &[f64]),
+    found: &[Eigen],
+    tried: &[f64],
     solves: &mut usize,
 ) -> (Reduced, Estimate) {
     let shifted = over.shifted;
@@ -238,7 +239,8 @@ impl Space {
 /// A map of the modes of least frequency.
 pub(crate) fn rows(
     over: &mut Over,
-    (reduced, estimate): (Reduced, &Estimate),
+    reduced: Reduced,
+    estimate: &Estimate,
     plan: &MapPlan,
     asked: Asked,
     solves: &mut usize,
@@ -276,7 +278,7 @@ pub(crate) fn rows(
         };
         let value = rates[ends[1]];
         let ends = ends.map(|k| factors[k]);
-        let found = lost(over, &mut space, (ends, value), norm(&factors), asked);
+        let found = lost(over, &mut space, ends, value, norm(&factors), asked);
         map.critical.push(found);
     }
     if linear.damping.is_some() && !map.critical.is_empty() && plan.over == MapOver::Friction {
@@ -312,7 +314,8 @@ fn grows(value: &Complex, limit: f64) -> bool {
 fn lost(
     over: &mut Over,
     space: &mut Space,
-    ([mut stable, mut unstable], mut value): ([f64; 2], Complex),
+    [mut stable, mut unstable]: [f64; 2],
+    mut value: Complex,
     largest: f64,
     asked: Asked,
 ) -> [f64; 2] {
@@ -349,8 +352,8 @@ fn first_lost(over: &mut Over, space: &mut Space, factors: &[f64], asked: Asked)
         let value = space.fastest(asked);
         match (before, grows(&value, UNSTABLE)) {
             (Some(stable), true) => {
-                let ends = ([stable, factor], value);
-                return Some(lost(over, space, ends, norm(factors), asked)[0]);
+                let ends = [stable, factor];
+                return Some(lost(over, space, ends, value, norm(factors), asked)[0]);
             }
             (_, false) => before = Some(factor),
             (None, true) => {}

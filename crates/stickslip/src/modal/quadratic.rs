@@ -101,7 +101,8 @@ impl<'a> Companion<'a> {
 pub(crate) fn solve(
     shifted: &Shifted,
     root: &Root,
-    (count, to): (usize, f64),
+    count: usize,
+    to: f64,
     transposed: bool,
     solves: &mut usize,
 ) -> Vec<Eigen> {

@@ -46,8 +46,7 @@ pub(crate) fn all(
     let linear = shifted.linear;
     root.set(1.0, true);
     // A few more, so that none is missing where sizes are nearly equal.
-    let asked = (modes.len() + 4, f64::INFINITY);
-    let left = solve(shifted, root, asked, true, solves);
+    let left = solve(shifted, root, modes.len() + 4, f64::INFINITY, true, solves);
     root.set(1.0, false);
     let quantities = quantities(model, linear);
     let (mut out, mut notes) = (Vec::new(), Vec::new());

@@ -130,8 +130,8 @@ impl Frame {
         }
         let mut following = model.loads.iter().filter(|l| l.follows).peekable();
         if model.corotations.is_empty() {
-            let of = (&*model.mesh, model.space);
-            following.for_each(|load| load.external_at(t, of, u, &mut external));
+            let (mesh, space) = (&*model.mesh, model.space);
+            following.for_each(|load| load.external_at(t, mesh, space, u, &mut external));
         } else if following.peek().is_some() {
             let mut own = vec![0.0; external.len()];
             following.for_each(|load| load.external(t, &mut own));

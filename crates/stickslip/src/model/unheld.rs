@@ -26,9 +26,11 @@ pub(crate) struct Mode {
 impl Mode {
     /// A motion of a body, or a part of it, about a centre, rotations by the length that they are measured with.
     fn new(
-        (body, piece): (usize, Option<usize>),
+        body: usize,
+        piece: Option<usize>,
         motion: Motion,
-        (centre, length): (Vec3, f64),
+        centre: Vec3,
+        length: f64,
         hidden: Option<usize>,
     ) -> Self {
         let (mut shift, mut turn) = ([0.0; 3], [0.0; 3]);
@@ -138,8 +140,8 @@ pub(crate) fn modes(model: &Model) -> Vec<Mode> {
                 _ => centre,
             };
             for (dof, motion) in link.motions(model.dofs) {
-                let about = (centre, link.length);
-                out.push(Mode::new((body, None), motion, about, Some(dof)));
+                let length = link.length;
+                out.push(Mode::new(body, None, motion, centre, length, Some(dof)));
             }
             continue;
         }
@@ -156,7 +158,7 @@ pub(crate) fn modes(model: &Model) -> Vec<Mode> {
             let moves = translations.iter().map(|&i| Motion::Translation(i));
             let turns = rotations.iter().map(|&i| Motion::Rotation(i));
             for motion in moves.chain(turns) {
-                out.push(Mode::new((body, piece), motion, (centre, rim), None));
+                out.push(Mode::new(body, piece, motion, centre, rim, None));
             }
         }
     }

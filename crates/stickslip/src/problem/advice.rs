@@ -72,14 +72,14 @@ pub(super) fn place(
             }
             _ => schema.example(&entry, here.table(path), found),
         };
-        return Some(format!("write `{}`", here.entry(&example)));
+        return Some(format!("write `{}`", here.entry(&example.0, &example.1)));
     }
     if !expected.takes_table() {
         return None;
     }
     let kinds: Vec<&str> = expected.kinds.iter().map(|(k, _)| *k).collect();
     let example = schema.example(expected, here.table(path), found);
-    let example = here.write(&example);
+    let example = here.write(&example.0, &example.1);
     let own_name = match example.contains(NAME) {
         true => ", with a name of your own for NAME",
         false => "",
@@ -100,7 +100,8 @@ pub(super) fn place(
 pub(super) fn elsewhere(
     root: &Json,
     path: &[String],
-    (table, names): (&Expected, &[&str]),
+    table: &Expected,
+    names: &[&str],
     found: &Value,
 ) -> String {
     let all = || suggest("", "allowed here", names);
@@ -187,17 +188,17 @@ impl Here {
         self.keys.first().map_or(last, String::as_str)
     }
 
-    fn write(&self, (keys, value): &(Vec<String>, String)) -> String {
+    fn write(&self, keys: &[String], value: &str) -> String {
         if self.in_list {
-            return self.entry(&(keys.clone(), value.clone()));
+            return self.entry(keys, value);
         }
         join(&[self.keys.as_slice(), keys].concat(), value)
     }
 
     /// The same as the entry of a list.
-    fn entry(&self, (keys, value): &(Vec<String>, String)) -> String {
+    fn entry(&self, keys: &[String], value: &str) -> String {
         let entry = match keys.is_empty() {
-            true => value.clone(),
+            true => value.to_string(),
             false => format!("{{ {} }}", join(keys, value)),
         };
         join(&self.keys, &format!("[{entry}]"))

@@ -29,8 +29,8 @@ impl Document {
     pub fn check_changes(&self, problem: &Problem, saved: &Saved) -> Result<(), Error> {
         let before = Document::new(saved.source.problem.clone(), None).problem()?;
         let snapshot = &saved.snapshot;
-        let at = (snapshot.step, snapshot.ended);
-        let findings = changed_keys(&before, problem, at, snapshot.time);
+        let (step, ended) = (snapshot.step, snapshot.ended);
+        let findings = changed_keys(&before, problem, step, ended, snapshot.time);
         match findings.is_empty() {
             true => Ok(()),
             false => Err(self.error(findings).into()),
@@ -43,7 +43,8 @@ impl Document {
 pub fn changed_keys(
     before: &Problem,
     after: &Problem,
-    (step, ended): (usize, bool),
+    step: usize,
+    ended: bool,
     t: f64,
 ) -> Vec<Diagnostic> {
     let table = |problem: &Problem| Table::try_from(problem).unwrap_or_default();

@@ -217,7 +217,7 @@ impl<'s> Walk<'s> {
                 None => {
                     unknown = true;
                     let found = value.get_ref();
-                    let help = advice::elsewhere(self.root, &self.path, (expected, &names), found);
+                    let help = advice::elsewhere(self.root, &self.path, expected, &names, found);
                     self.report(span.clone(), format!("unknown key `{name}`"), Some(help));
                 }
             }

@@ -10,8 +10,8 @@ use rayon::prelude::*;
 use super::history::Row;
 use crate::assess::view::View;
 use crate::fatigue::{
-    Criterion, Directions, FatigueModel, Found, History, Increment, Maximum, Record, Rubbed, Worst,
-    worst,
+    Criterion, CycleIncrement, Directions, FatigueModel, Found, History, Maximum, Record, Rubbed,
+    Worst, worst,
 };
 use crate::math::symmetric_eigen;
 use crate::math::{Vec3, add, dot, norm, normalize, sub};
@@ -147,7 +147,7 @@ impl Lot {
 }
 
 /// What there is to note of an increment that has been accepted; `None` in steps without cycles.
-pub(crate) fn increment(view: &View, watched: &Watched, trial: Trial) -> Option<Increment> {
+pub(crate) fn increment(view: &View, watched: &Watched, trial: Trial) -> Option<CycleIncrement> {
     let step = &view.model.steps[view.step_index()];
     let cycles = step.cycles?;
     let strained = view.strained();
@@ -159,7 +159,7 @@ pub(crate) fn increment(view: &View, watched: &Watched, trial: Trial) -> Option<
         stresses.extend(lot.places.iter().flat_map(|&i| all[i]));
     }
     let interfaces = view.contacts();
-    Some(Increment {
+    Some(CycleIncrement {
         begins: cycles.begins(trial.from - step.start),
         stress: stresses,
         rubbed: interfaces.flat_map(|i| look::rubbing(i)).collect(),

@@ -226,7 +226,7 @@ impl Writer {
         }
         let model = view.model;
         let names: Vec<&str> = model.bodies.iter().map(|b| b.name.as_str()).collect();
-        let layout = Layout::new(&model.mesh, &model.title, (&names, &owners()), encoding);
+        let layout = Layout::new(&model.mesh, &model.title, &names, &owners(), encoding);
         let path = directory.join(&self.plan.name);
         let file = match self.there {
             true => Results::resume(&path, layout, self.reached.tally)?,

@@ -7,7 +7,8 @@ use crate::contact::look;
 use crate::contact::look::Resultant;
 use crate::model::definition::{Reference, Support};
 use crate::model::kick::Share;
-use crate::system::{Motion, Tally};
+use crate::solve::accepted::Effort;
+use crate::system::Motion;
 use crate::time::Trial;
 
 /// Columns of the mode along which a motion began.
@@ -37,25 +38,13 @@ impl Row {
     }
 }
 
-/// What an increment took.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Effort {
-    /// Newton iterations.
-    pub iterations: usize,
-    /// Multiplier updates.
-    pub rounds: usize,
-    /// Final residual relative to the forces in play.
-    pub residual: f64,
-    /// Points by status.
-    pub tally: Tally,
-}
-
 pub(crate) fn row(
     view: &View,
     around: &[Option<Around>],
     trial: Trial,
     effort: Effort,
-    (increment, attempt): (usize, usize),
+    increment: usize,
+    attempt: usize,
 ) -> Row {
     let mut row = Row::default();
     // the first columns as in the .sta file of Abaqus and CalculiX

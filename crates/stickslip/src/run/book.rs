@@ -5,9 +5,8 @@ use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::{ContactMemory, Frame};
 use crate::model::ledger::{EnergyLedger, Flow};
-use crate::results::history::Effort;
 use crate::results::summary::Summary;
-use crate::solve::accepted::Accepted;
+use crate::solve::accepted::{Accepted, Effort};
 
 /// Makes it the last state, after which contact knows what the frame has already, and enters it into the ledger.
 pub(crate) fn book(
@@ -17,12 +16,12 @@ pub(crate) fn book(
     summary: &mut Summary,
     accepted: Accepted,
 ) -> Effort {
-    let effort = effort(&accepted);
+    let effort = accepted.effort;
     if let Some(solver) = &accepted.solver {
         *summary.friction_solvers.entry(solver.clone()).or_insert(0) += 1;
     }
     let first = summary.increments == 0;
-    frame.ledger = ledger_after((model, &*frame), contact, &frame.contacts, &accepted, first);
+    frame.ledger = ledger_after(model, &*frame, contact, &frame.contacts, &accepted, first);
     frame.coupled = contact.coupled(frame).stored();
     frame.state = accepted.state;
     frame.forces = accepted.forces;
@@ -47,7 +46,8 @@ pub(crate) fn book(
 
 /// The ledger after an increment that the interfaces have committed; `first`: of all.
 pub(crate) fn ledger_after(
-    (model, frame): (&Model, &Frame),
+    model: &Model,
+    frame: &Frame,
     contact: &Contact,
     after: &ContactMemory,
     accepted: &Accepted,
@@ -75,16 +75,6 @@ pub(crate) fn ledger_after(
         ledger.lose(contact_work(accepted, frame) - entered);
     }
     ledger
-}
-
-/// What it took.
-fn effort(accepted: &Accepted) -> Effort {
-    Effort {
-        iterations: accepted.iterations,
-        rounds: accepted.rounds,
-        residual: accepted.residual,
-        tally: accepted.tally,
-    }
 }
 
 /// Work that contact took over an increment by the trapezoidal rule, as that of loads is entered.

@@ -92,7 +92,7 @@ impl Simulation {
 
     /// The error of an increment at the end of which contact cannot balance the loads: to halve it would only find out when.
     pub(crate) fn refuse_unbalanced(&mut self, trial: Trial) -> Option<Error> {
-        let (finding, error) = view!(self).refuse_unbalanced((trial.from, trial.to))?;
+        let (finding, error) = view!(self).refuse_unbalanced(trial.from, trial.to)?;
         doctor::note(&mut self.summary.findings, finding);
         Some(error.into())
     }

@@ -123,7 +123,7 @@ impl Simulation {
             solver,
             ..
         } = self;
-        solver.complete((model, frame), contact, after, found, &mut one.accepted)
+        solver.complete(model, frame, contact, after, found, &mut one.accepted)
     }
 
     /// Enters an increment into the ledger and tells the observers.
@@ -133,7 +133,6 @@ impl Simulation {
         observers: &mut [&mut dyn Observer],
     ) -> Result<(), Error> {
         self.tell_iterations(&pending.seen, observers);
-        let counts = (pending.increment, pending.attempt);
         let Simulation {
             model,
             contact,
@@ -144,7 +143,14 @@ impl Simulation {
         let effort = book(model, contact, frame, summary, pending.accepted);
         let started = Instant::now();
         if pending.row {
-            let row = history::row(&view!(self), &self.around, pending.trial, effort, counts);
+            let row = history::row(
+                &view!(self),
+                &self.judges.around,
+                pending.trial,
+                effort,
+                pending.increment,
+                pending.attempt,
+            );
             let named = row.names.iter().cloned().zip(row.values.iter().copied());
             self.summary.last = named.collect();
             self.judge();
@@ -154,7 +160,8 @@ impl Simulation {
             }
         }
         let view = view!(self);
-        let cycle = loops::follow(&view, &self.shares, &mut self.loops, pending.trial);
+        let judges = &mut self.judges;
+        let cycle = loops::follow(&view, &judges.shares, &mut judges.loops, pending.trial);
         let worst = self.follow_fatigue(pending.trial);
         if let Some(mut row) = cycle {
             fatigue::add_columns(&mut row, &worst, self.model.dofs.dim);
@@ -173,7 +180,7 @@ impl Simulation {
 
     /// Takes note of an increment for the criteria of fatigue. Where a cycle ends with it, what they say of that.
     fn follow_fatigue(&mut self, trial: Trial) -> Vec<Maximum> {
-        let Some(watched) = &self.watched else {
+        let Some(watched) = &self.judges.watched else {
             return Vec::new();
         };
         let Some(increment) = fatigue::increment(&view!(self), watched, trial) else {
@@ -207,7 +214,7 @@ impl Simulation {
         let limits = &self.model.quality;
         let view = view!(self);
         let summary = &mut self.summary;
-        view.watch(&mut self.watches);
+        view.watch(&mut self.judges.watches);
         view.judge_quality(limits, &mut summary.quality);
         view.judge_travel(
             limits,
@@ -216,7 +223,7 @@ impl Simulation {
             &mut summary.findings,
         );
         summary.quality.settle();
-        self.unjoined.judge(&view, &mut summary.findings);
+        self.judges.unjoined.judge(&view, &mut summary.findings);
     }
 
     /// Tells observers about iterations.

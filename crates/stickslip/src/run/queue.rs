@@ -64,10 +64,10 @@ impl Pending {
         Advance {
             increment: self.increment,
             attempt: self.attempt,
-            iterations: self.accepted.iterations,
+            iterations: self.accepted.effort.iterations,
             time: self.trial.to,
-            residual: self.accepted.residual,
-            tally: self.accepted.tally,
+            residual: self.accepted.effort.residual,
+            tally: self.accepted.effort.tally,
         }
     }
 }

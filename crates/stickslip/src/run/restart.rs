@@ -40,8 +40,8 @@ impl Simulation {
             pending: self.pending.clone(),
             recovered: self.recovered.clone(),
             summary: self.summary.clone(),
-            watches: self.watches.clone(),
-            loops: self.loops.clone(),
+            watches: self.judges.watches.clone(),
+            loops: self.judges.loops.clone(),
             working,
         }
     }
@@ -131,8 +131,8 @@ impl Simulation {
         simulation.pending = pending;
         simulation.recovered = recovered;
         simulation.summary = summary;
-        simulation.watches = watches;
-        simulation.loops = loops;
+        simulation.judges.watches = watches;
+        simulation.judges.loops = loops;
         Ok(())
     }
 }

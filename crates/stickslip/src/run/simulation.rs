@@ -32,6 +32,21 @@ use crate::results::summary::{Phases, Summary};
 use crate::solve::solver::Solver;
 use crate::system::State;
 
+/// What those need who judge increments and make figures of them.
+pub(crate) struct Judges {
+    /// What interfaces did so far.
+    pub watches: Vec<Watch>,
+    /// The cycles at hand of interfaces, and the parts of bodies around their points by which displacements are averaged for them.
+    pub loops: Vec<Loop>,
+    pub shares: Vec<f64>,
+    /// Points at which criteria of fatigue are asked.
+    pub watched: Option<fatigue::Watched>,
+    /// Bodies that no interface joins.
+    pub unjoined: doctor::Unjoined,
+    /// Cells at the probes; `None` at rigid bodies.
+    pub around: Vec<Option<Around>>,
+}
+
 /// A model being run.
 pub struct Simulation {
     /// What is simulated.
@@ -53,17 +68,7 @@ pub struct Simulation {
     pub(crate) recovered: Option<VecDeque<Pending>>,
     /// The last of those whose interior was found not to hold.
     pub(crate) taken_back: Option<TakenBack>,
-    /// What interfaces did so far.
-    pub(crate) watches: Vec<Watch>,
-    /// The cycles at hand of interfaces, and the parts of bodies around their points by which displacements are averaged for them.
-    pub(crate) loops: Vec<Loop>,
-    pub(crate) shares: Vec<f64>,
-    /// Points at which criteria of fatigue are asked.
-    pub(crate) watched: Option<fatigue::Watched>,
-    /// Bodies that no interface joins.
-    pub(crate) unjoined: doctor::Unjoined,
-    /// Cells at the probes; `None` at rigid bodies.
-    pub(crate) around: Vec<Option<Around>>,
+    pub(crate) judges: Judges,
     pub(crate) started: Instant,
     /// Increments at the last checkpoint, and when it was taken.
     pub(super) saved: (usize, Instant),
@@ -122,12 +127,14 @@ impl Simulation {
             frame: &frame,
         };
         Ok(Simulation {
-            around: model.probes.iter().map(|p| probed(p.point)).collect(),
-            unjoined: doctor::Unjoined::new(&scene),
-            loops: vec![Loop::default(); contact.interfaces.len()],
-            shares: loops::shares(&model),
-            watched: fatigue::watched(&model, &contact),
-            watches: vec![Watch::default(); contact.interfaces.len()],
+            judges: Judges {
+                around: model.probes.iter().map(|p| probed(p.point)).collect(),
+                unjoined: doctor::Unjoined::new(&scene),
+                loops: vec![Loop::default(); contact.interfaces.len()],
+                shares: loops::shares(&model),
+                watched: fatigue::watched(&model, &contact),
+                watches: vec![Watch::default(); contact.interfaces.len()],
+            },
             integration: Integration::QuasiStatic(QuasiStatic),
             steps: Steps::default(),
             modes: Vec::new(),
@@ -190,7 +197,7 @@ impl Simulation {
     /// Gaps at the start by interface, and what the doctor finds in the model.
     pub(crate) fn look(&mut self) -> (Vec<Vec<f64>>, Vec<Finding>) {
         let gaps = start_gaps(&self.model, &self.frame, &mut self.contact);
-        let findings = doctor::examine(&view!(self), &self.unjoined, &gaps);
+        let findings = doctor::examine(&view!(self), &self.judges.unjoined, &gaps);
         (gaps, findings)
     }
 
@@ -222,10 +229,10 @@ impl Simulation {
         summary.energy = self.frame.ledger;
         let strain = self.frame.ledger.strain;
         summary.artificial_energy = self.solver.floating.artificial_energy(strain);
-        summary.interfaces = quality::interfaces(&view, &summary.quality, &self.watches);
+        summary.interfaces = quality::interfaces(&view, &summary.quality, &self.judges.watches);
         let mut notes = Vec::new();
         if summary.completed {
-            for finding in doctor::watched(&view, &self.watches) {
+            for finding in doctor::watched(&view, &self.judges.watches) {
                 // Shear that is not there looks like any other.
                 if finding.cause == DoctorCause::TurnedNormals {
                     notes.push(finding.message.clone());

@@ -105,7 +105,14 @@ impl Simulation {
         };
         sizes.frd = (frd[0] * mesh.points.len() + frd[1]) as u64;
         let nothing = Trial { from: 0.0, to: 0.0 };
-        let row = history::row(&view, &self.around, nothing, Default::default(), (0, 0));
+        let row = history::row(
+            &view,
+            &self.judges.around,
+            nothing,
+            Default::default(),
+            0,
+            0,
+        );
         sizes.row = (NUMBER * row.values.len()) as u64;
         let (checkpoint, waiting) = self.checkpoint_sizes();
         let names = sizes.outputs.saturating_mul(LINE as u64);

@@ -218,18 +218,17 @@ impl Simulation {
         contact.use_springs(contacts, false, |energy| frame.ledger.initial += energy);
         self.integration = match dynamic.method {
             Method::Implicit(alphas) => {
-                let scheme = (dynamic, alphas);
                 // What is tried for the forces at the start is no increment that could be tried again.
                 let interrupt = solver.newton.interrupt.take();
-                let begun = Implicit::begin(model, frame, contact, solver, scheme);
+                let begun = Implicit::begin(model, frame, contact, solver, dynamic, alphas);
                 solver.newton.interrupt = interrupt;
                 Integration::Implicit(begun?)
             }
             Method::Explicit { .. } => {
                 solver.include_all(model, contact);
                 let explicit = Explicit::begin(model, frame, contact, &dynamic)?;
-                summary.mass_added = explicit.mass_added;
-                summary.stable_increment = explicit.at_start;
+                summary.mass_added = explicit.begun.mass_added;
+                summary.stable_increment = explicit.begun.stable;
                 Integration::Explicit(Box::new(explicit))
             }
         };
@@ -457,8 +456,7 @@ impl Simulation {
         let anchored = self.solver.floating.is_anchored();
         let contacts = Arc::clone(self.solver.contacts(&self.frame));
         let floating = &mut self.solver.floating;
-        let known = (&self.model, &self.contact, &*contacts);
-        if !floating.wants_restart(known, followed) {
+        if !floating.wants_restart(&self.model, &self.contact, &contacts, followed) {
             if anchored {
                 (self.solver).note_released(&self.model, &self.frame, accepted);
                 self.tell_notes(observers)?;
@@ -518,7 +516,7 @@ impl Simulation {
         let iterations = if accepted.hard {
             usize::MAX
         } else {
-            accepted.iterations
+            accepted.effort.iterations
         };
         running.stepper.accept(trial, iterations);
         let plan = &self.model.output;

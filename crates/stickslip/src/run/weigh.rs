@@ -112,7 +112,7 @@ impl Simulation {
     fn opened(&self, trial: Trial, accepted: &Accepted, after: &ContactMemory) -> [f64; 2] {
         let (model, frame) = (&self.model, &self.frame);
         let first = self.summary.increments == 0;
-        let ledger = ledger_after((model, frame), &self.contact, after, accepted, first);
+        let ledger = ledger_after(model, frame, &self.contact, after, accepted, first);
         let mut quality = self.summary.energy_quality;
         quality.note(&ledger);
         let limit = model.quality.energy.unwrap_or(model.energy_limit);

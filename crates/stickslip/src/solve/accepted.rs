@@ -5,6 +5,26 @@ use crate::newton::Converged;
 use crate::system::{Rate, Stage, State, Tally};
 use crate::time::Trial;
 
+/// What an increment took.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Effort {
+    /// Newton iterations.
+    pub iterations: usize,
+    /// Multiplier updates.
+    pub rounds: usize,
+    /// Final residual relative to the forces in play.
+    pub residual: f64,
+    /// Points by status.
+    pub tally: Tally,
+}
+
+crate::keep!(Effort {
+    iterations,
+    rounds,
+    residual,
+    tally
+});
+
 /// An increment that may be accepted.
 #[derive(Default, Clone)]
 pub(crate) struct Accepted {
@@ -23,10 +43,7 @@ pub(crate) struct Accepted {
     pub internal: Option<Vec<f64>>,
     /// The farthest the bodies have been from where an implicit step began, in the norm of the mass.
     pub travel: f64,
-    pub iterations: usize,
-    pub rounds: usize,
-    pub residual: f64,
-    pub tally: Tally,
+    pub effort: Effort,
     /// The solver of friction problems that it took; `None` of plain iteration and explicit increments.
     pub solver: Option<String>,
     /// Bodies were followed to where contact holds them.
@@ -38,10 +55,12 @@ pub(crate) struct Accepted {
 impl Accepted {
     pub(crate) fn from_newton(converged: &Converged) -> Self {
         Accepted {
-            iterations: converged.iterations,
-            rounds: converged.rounds,
-            residual: converged.residual,
-            tally: converged.tally,
+            effort: Effort {
+                iterations: converged.iterations,
+                rounds: converged.rounds,
+                residual: converged.residual,
+                tally: converged.tally,
+            },
             solver: converged.solver.clone(),
             ..Accepted::default()
         }
@@ -73,10 +92,7 @@ crate::keep!(Accepted {
     strain,
     internal,
     travel,
-    iterations,
-    rounds,
-    residual,
-    tally,
+    effort,
     solver,
     followed,
     hard

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use crate::body::Elastic;
+use crate::body::{CellVisitor, Elastic};
 use crate::linear::{BlockCsr, Cells, Matrix, Summands};
 use crate::model::definition::{Model, Step};
 use crate::newton::condensed::Identity;
@@ -65,12 +65,12 @@ impl ByCells {
     }
 
     /// Hands out dense matrices, row by row, and their points.
-    fn groups(&self, within: Range<usize>, visit: &mut (dyn FnMut(&[usize], &[f64]) + Send)) {
+    fn groups(&self, within: Range<usize>, visit: &mut CellVisitor) {
         (self.within(within)).for_each(|elastic| elastic.element_matrices(visit));
         self.spring_groups(visit);
     }
 
-    fn spring_groups(&self, visit: &mut (dyn FnMut(&[usize], &[f64]) + Send)) {
+    fn spring_groups(&self, visit: &mut CellVisitor) {
         for &(dof, stiffness) in &self.springs {
             let (points, dense) = self.links.spring(dof, stiffness);
             visit(&points, &dense);

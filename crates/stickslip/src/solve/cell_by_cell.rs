@@ -27,9 +27,9 @@ impl Cells<'_> {
     /// Writes what pressures that follow do at a time `[N]`.
     fn press(&self, t: f64, u: &[f64], out: &mut [f64]) {
         out.fill(0.0);
-        let of = (&*self.model.mesh, self.model.space);
+        let (mesh, space) = (&*self.model.mesh, self.model.space);
         for pressing in self.model.loads.iter().filter(|l| l.pressing.is_some()) {
-            pressing.external_at(t, of, u, out);
+            pressing.external_at(t, mesh, space, u, out);
         }
     }
 
@@ -72,10 +72,11 @@ impl Curved for Pressed<'_> {
         let (mut exact, mut stiff) = (linear.clone(), linear.clone());
         let bodies = self.bodies.turning();
         bodies.for_each(|e| e.tangents(u, &mut exact, &mut stiff));
-        let of = (&*model.mesh, model.space);
+        let (mesh, space) = (&*model.mesh, model.space);
         for load in &model.loads {
             if let Some(pressing) = &load.pressing {
-                pressing.add_tangent(of, -load.schedule.at(self.t), u, &mut exact);
+                let factor = -load.schedule.at(self.t);
+                pressing.add_tangent(mesh, space, factor, u, &mut exact);
             }
         }
         [exact, stiff]

@@ -72,7 +72,7 @@ pub(crate) struct Choice {
 
 impl Scene<'_> {
     /// The cheapest way that fits into memory.
-    pub(crate) fn choose(&self, cost: &Cost, (matrix, held): (&BlockCsr, &[bool])) -> Choice {
+    pub(crate) fn choose(&self, cost: &Cost, matrix: &BlockCsr, held: &[bool]) -> Choice {
         let free = held.iter().filter(|h| !**h).count() as f64;
         let candidates = cost.candidates as f64;
         let [static_, moving] = self.increments_left();

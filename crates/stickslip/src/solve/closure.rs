@@ -57,7 +57,8 @@ pub(crate) fn close(
     model: &Model,
     frame: &Frame,
     contact: &mut Contact,
-    (free, external): (&[FreeBody], &[f64]),
+    free: &[FreeBody],
+    external: &[f64],
     trial: Trial,
 ) -> Closure {
     let count = model.bodies.len();

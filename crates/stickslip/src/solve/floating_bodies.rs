@@ -214,7 +214,9 @@ impl Floating {
     /// to be made before.
     pub fn wants_restart(
         &mut self,
-        (model, contact, contacts): (&Model, &Contact, &ContactMemory),
+        model: &Model,
+        contact: &Contact,
+        contacts: &ContactMemory,
         followed: &mut usize,
     ) -> bool {
         let rubs = self

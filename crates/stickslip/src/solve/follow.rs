@@ -138,7 +138,7 @@ impl Solver {
         self.seen.tell(&Work::Following);
         let external = frame.loads(model, trial.to);
         let bodies = self.floating.bodies();
-        let closure = close(model, frame, contact, (bodies, &external), trial);
+        let closure = close(model, frame, contact, bodies, &external, trial);
         let mut names = Vec::new();
         for (free, &moved) in bodies.iter().zip(&closure.moved) {
             if moved > 0.0 {

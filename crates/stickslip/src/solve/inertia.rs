@@ -81,20 +81,30 @@ const SAME: f64 = 1e-9;
 impl Inertia {
     /// Assembles the mass; `stiffness` gives the pattern.
     pub fn new(
-        (model, contact): (&Model, &Contact),
+        model: &Model,
+        contact: &Contact,
         stiffness: &BlockCsr,
         dynamic: &Dynamic,
         before: u64,
     ) -> Self {
-        let kind = (dynamic.mass, redistributed(contact, dynamic));
-        Inertia::of((model, contact), stiffness, kind, before)
+        let redistributed = redistributed(contact, dynamic);
+        Inertia::of(
+            model,
+            contact,
+            stiffness,
+            dynamic.mass,
+            redistributed,
+            before,
+        )
     }
 
     /// The same with masses that are given to points in a way that is known.
     fn of(
-        (model, contact): (&Model, &Contact),
+        model: &Model,
+        contact: &Contact,
         stiffness: &BlockCsr,
-        (mass_kind, redistributed): (MassKind, Vec<bool>),
+        mass_kind: MassKind,
+        redistributed: Vec<bool>,
         before: u64,
     ) -> Self {
         let dim = model.dofs.dim;
@@ -130,9 +140,14 @@ impl Inertia {
     }
 
     /// That of modes: all points have their masses.
-    pub fn of_modes(scene: (&Model, &Contact), stiffness: &BlockCsr, kind: MassKind) -> Self {
-        let none = vec![false; scene.1.interfaces.len()];
-        Inertia::of(scene, stiffness, (kind, none), 0)
+    pub fn of_modes(
+        model: &Model,
+        contact: &Contact,
+        stiffness: &BlockCsr,
+        kind: MassKind,
+    ) -> Self {
+        let none = vec![false; contact.interfaces.len()];
+        Inertia::of(model, contact, stiffness, kind, none, 0)
     }
 
     /// Mass and damping.
@@ -177,13 +192,7 @@ impl Inertia {
     }
 
     /// Lets what has no inertia go on at `t` as what it is tied to does, where it is free to: `x` are velocities or accelerations that impulses have changed.
-    pub fn lead(
-        &self,
-        model: &Model,
-        contact: &Contact,
-        (t, fixed): (f64, &[bool]),
-        x: &mut [f64],
-    ) {
+    pub fn lead(&self, model: &Model, contact: &Contact, t: f64, fixed: &[bool], x: &mut [f64]) {
         let free = self.bare.iter().zip(fixed).map(|(b, f)| *b && !f);
         let free: Vec<bool> = free.collect();
         (contact.couplings).follow(t, &model.links, &free, x);
@@ -259,9 +268,14 @@ impl Inertia {
     }
 
     /// Makes it again.
-    pub fn again(scene: (&Model, &Contact), stiffness: &BlockCsr, recipe: InertiaRecipe) -> Self {
-        let kind = (recipe.mass_kind, recipe.redistributed);
-        let mut inertia = Inertia::of(scene, stiffness, kind, recipe.keys);
+    pub fn again(
+        model: &Model,
+        contact: &Contact,
+        stiffness: &BlockCsr,
+        recipe: InertiaRecipe,
+    ) -> Self {
+        let (kind, redistributed, keys) = (recipe.mass_kind, recipe.redistributed, recipe.keys);
+        let mut inertia = Inertia::of(model, contact, stiffness, kind, redistributed, keys);
         for matrix in recipe.matrices {
             let made = inertia.make(stiffness, matrix);
             inertia.matrices.push(made);

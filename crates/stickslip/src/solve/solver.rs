@@ -15,7 +15,7 @@ use crate::model::contact::Contact;
 use crate::model::definition::{Model, Solution};
 use crate::model::frame::{ContactMemory, Frame};
 use crate::newton::condensed::{Identity, Library};
-use crate::newton::{Converged, Curved, CurvedBulk, Factors, Newton, SparseBulk};
+use crate::newton::{Converged, CurvedBulk, Factors, Newton, SparseBulk};
 use crate::system::{State, StepFailure};
 
 /// What solves increments: nothing in it is part of a result, and all of it can be made again.
@@ -124,15 +124,15 @@ impl Solver {
     ) -> Result<Converged, StepFailure> {
         self.keep_stiffness();
         let fixed = task.constraints.fixed.clone();
-        let (matrix, key, external, origin) = match task.load {
+        let (matrix, diagonal, key, external, origin) = match task.load {
             Load::External(external) => {
-                let matrix = (entries(&self.stiffness), self.diagonal.as_slice());
-                (matrix, 0, external, None)
+                let matrix = entries(&self.stiffness);
+                (matrix, self.diagonal.as_slice(), 0, external, None)
             }
             Load::Known(origin) => {
                 let (matrix, diagonal, key) = in_motion(&self.inertia).matrix();
                 let none = vec![0.0; at.u.len()];
-                ((matrix, diagonal), key, none, Some(origin))
+                (matrix, diagonal, key, none, Some(origin))
             }
         };
         let mut forces = contact.forces(task.contacts);
@@ -142,14 +142,13 @@ impl Solver {
         };
         if let (Some(linear), None) = (&self.linear, &origin) {
             let pressed = Pressed::new(Cells { model, linear }, at.t, &task.from.u);
-            let curved = (&pressed as &dyn Curved, self.diagonal.as_slice());
             let linearised = self.factors.of(CELLS);
             return Iteration {
                 newton: &mut self.newton,
                 seen: &mut self.seen,
                 model,
                 forces,
-                bulk: &mut CurvedBulk::new(curved, external, fixed, linearised),
+                bulk: &mut CurvedBulk::new(&pressed, &self.diagonal, external, fixed, linearised),
                 rate: task.rate,
                 frames: task.frames,
             }
@@ -161,7 +160,7 @@ impl Solver {
             seen: &mut self.seen,
             model,
             forces,
-            bulk: &mut SparseBulk::new(matrix, external, fixed, origin, linearised),
+            bulk: &mut SparseBulk::new(matrix, diagonal, external, fixed, origin, linearised),
             rate: task.rate,
             frames: task.frames,
         }

@@ -168,7 +168,7 @@ impl Solver {
         if recipe.is_some() || state.method != Solution::Condensed {
             self.keep_stiffness();
         }
-        let again = |r| Inertia::again((model, contact), entries(&self.stiffness), r);
+        let again = |r| Inertia::again(model, contact, entries(&self.stiffness), r);
         self.inertia = recipe.map(again);
         // As it was when bodies were condensed: there is nothing to be decided.
         self.method = Solution::Condensed;

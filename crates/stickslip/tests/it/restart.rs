@@ -362,7 +362,7 @@ fn what_is_still_to_come_may_change_and_the_rest_not() {
     let keys = |from: &str, to: &str, step: usize| -> Vec<String> {
         let text = kinds_of("sparse").replace(from, to);
         let after = support::problem(&text);
-        let found = changed_keys(&before, &after, (step, false), 0.5 + step as f64);
+        let found = changed_keys(&before, &after, step, false, 0.5 + step as f64);
         found.into_iter().map(|f| f.key).collect()
     };
     assert!(keys("quality.gate", "output.every = 3\nquality.gate", 0).is_empty());

@@ -262,7 +262,7 @@ fn part(mut all: Runs, files: &[PathBuf], output: &Path, share: Share) -> Outcom
             "looking whether {holder}, which has this shard, still lives"
         ));
     };
-    let mut work = Work::begin(&folder, (sweep, share), &waits)?;
+    let mut work = Work::begin(&folder, sweep, share, &waits)?;
     all.shared.dead.clone_from(&work.dead);
     let done = &work.shard.done;
     if !done.is_empty() {

@@ -107,7 +107,7 @@ impl Plan {
             problem.map(|problem| document.inputs(&problem))
         };
         let checked = (0..self.count).into_par_iter().map(|run| (run, read(run)));
-        let checked = checked.fold(Checked::default, Checked::with);
+        let checked = checked.fold(Checked::default, |known, (run, read)| known.with(run, read));
         let Checked { mut failed, files } = checked.reduce(Checked::default, Checked::and);
         failed.sort_by_key(|(run, _)| *run);
         let mut found: Vec<(Diagnostic, usize, usize)> = Vec::new();
@@ -167,7 +167,7 @@ struct Checked {
 }
 
 impl Checked {
-    fn with(mut self, (run, read): (usize, Result<Vec<PathBuf>, ProblemError>)) -> Self {
+    fn with(mut self, run: usize, read: Result<Vec<PathBuf>, ProblemError>) -> Self {
         match read {
             Ok(files) => self.files.extend(files),
             Err(e) => self.failed.push((run, e.findings)),

@@ -403,7 +403,8 @@ impl Work {
     /// [`Failure`]: another process is at it; it is of another sweep; what the system says.
     pub fn begin(
         folder: &Path,
-        (sweep, share): (Sweep, Share),
+        sweep: Sweep,
+        share: Share,
         waits: &dyn Fn(&str),
     ) -> Result<Work, Failure> {
         fs::create_dir_all(folder).map_err(|e| Error::io(folder, e))?;

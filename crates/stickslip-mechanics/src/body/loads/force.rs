@@ -20,9 +20,9 @@ pub struct Load {
 
 impl Load {
     /// Adds the forces at a time to `out` `[N]`, by dof, where those that press on moving faces do so at displacements `u` `[m]`.
-    pub fn external_at(&self, t: f64, of: (&Mesh, Space), u: &[f64], out: &mut [f64]) {
+    pub fn external_at(&self, t: f64, mesh: &Mesh, space: Space, u: &[f64], out: &mut [f64]) {
         match &self.pressing {
-            Some(pressing) => pressing.external(of, self.schedule.at(t), u, out),
+            Some(pressing) => pressing.external(mesh, space, self.schedule.at(t), u, out),
             None => self.external(t, out),
         }
     }

@@ -24,7 +24,7 @@ pub struct Pressing {
 
 impl Pressing {
     /// Adds so many times its forces at displacements `u` `[m]` by dof to `out` `[N]`.
-    pub fn external(&self, (mesh, space): (&Mesh, Space), times: f64, u: &[f64], out: &mut [f64]) {
+    pub fn external(&self, mesh: &Mesh, space: Space, times: f64, u: &[f64], out: &mut [f64]) {
         let dofs = dofs(mesh, space);
         self.each(mesh, space, u, &mut |q, thick| {
             let force = scale(-times * self.value * thick, q.across);
@@ -39,7 +39,8 @@ impl Pressing {
     /// Adds so many times the derivative of these forces by displacements to a matrix `[N/m]`.
     pub fn add_tangent(
         &self,
-        (mesh, space): (&Mesh, Space),
+        mesh: &Mesh,
+        space: Space,
         times: f64,
         u: &[f64],
         matrix: &mut BlockCsr,
@@ -129,7 +130,7 @@ mod tests {
             let force = |s: f64| {
                 let at: Vec<f64> = u.iter().zip(&way).map(|(u, w)| u + s * w).collect();
                 let mut out = vec![0.0; count];
-                pressing.external((mesh, space), 2.0, &at, &mut out);
+                pressing.external(mesh, space, 2.0, &at, &mut out);
                 out
             };
             // All faces of a cell are closed.
@@ -137,7 +138,7 @@ mod tests {
             assert!(sum.abs() < 1e-13, "{kind}: {sum}");
             let mut matrix =
                 BlockCsr::from_couplings(mesh.points.len(), dim, &mut |v| body.couplings(v));
-            pressing.add_tangent((mesh, space), 2.0, &u, &mut matrix);
+            pressing.add_tangent(mesh, space, 2.0, &u, &mut matrix);
             let mut product = vec![0.0; count];
             matrix.mul(&way, &mut product);
             let both = force(1e-5).into_iter().zip(force(-1e-5));

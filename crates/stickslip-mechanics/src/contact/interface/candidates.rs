@@ -41,7 +41,7 @@ fn facing(definition: &InterfaceDefinition, x: &[Vec3]) -> Vec<Vec3> {
     }
     let turned = |(point, around): (&ContactPoint, &Vec<Part>)| {
         let parts = around.iter().copied();
-        let turn = rotation_of(parts, (x, &definition.reference), definition.dofs.dim);
+        let turn = rotation_of(parts, x, &definition.reference, definition.dofs.dim);
         mat_vec(&turn, point.normal)
     };
     let normals: Vec<Vec3> = definition.points.iter().zip(&around).map(turned).collect();

@@ -46,8 +46,7 @@ pub(super) fn integrate_faces(interface: InterfaceInput, geometry: &mut Geometry
     let (x, before, turn): (&[Vec3], &[Vec3], Mat3) = match frozen {
         true => (reference, &[], identity()),
         false => {
-            let at = (turned.as_slice(), reference.as_slice());
-            let turn = of_points(own_nodes(&interface), at, interface.dofs.dim);
+            let turn = of_points(own_nodes(&interface), turned, reference, interface.dofs.dim);
             (x, before, across(&interface).turn(turn))
         }
     };
@@ -122,7 +121,8 @@ fn covered(interface: &InterfaceDefinition, search: &mut FaceSearch, at: &[Vec3]
     search.renew(&mortar.faces, facets, at);
     let turn = of_points(
         own_nodes(interface),
-        (at, &interface.reference),
+        at,
+        &interface.reference,
         interface.dofs.dim,
     );
     let mirrors = mirrors(interface);

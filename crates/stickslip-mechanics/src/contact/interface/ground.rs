@@ -204,7 +204,7 @@ impl Ground {
         let sum = at.iter().fold([0.0; 3], |sum, p| add(sum, p.normal));
         let normal = normalize(sum)?;
         let plane = at.iter().all(|p| dot(p.normal, normal) > PLANE);
-        let chart = Chart::plane(at.first()?.x, normal, (above.dim, above.finest()));
+        let chart = Chart::plane(at.first()?.x, normal, above.dim, above.finest());
         plane.then(|| Self::on(chart.along(direction), above, extent))
     }
 

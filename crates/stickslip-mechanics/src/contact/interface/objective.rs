@@ -34,12 +34,12 @@ struct Sheet {
 }
 
 impl Sheet {
-    fn node(&mut self, at: (usize, usize), x: &mut Vec<Vec3>) -> usize {
-        let column = self.around.map_or(at.0, |n| at.0 % (2 * n));
+    fn node(&mut self, place: [usize; 2], x: &mut Vec<Vec3>) -> usize {
+        let column = self.around.map_or(place[0], |n| place[0] % (2 * n));
         let (radius, part) = (self.radius, self.start + 0.5 * self.step * column as f64);
-        *self.known.entry((column, at.1)).or_insert_with(|| {
+        *self.known.entry((column, place[1])).or_insert_with(|| {
             let (s, c) = (std::f64::consts::TAU * part).sin_cos();
-            x.push([radius * c, radius * s, 0.075 * at.1 as f64]);
+            x.push([radius * c, radius * s, 0.075 * place[1] as f64]);
             x.len() - 1
         })
     }
@@ -69,7 +69,10 @@ impl Sheet {
         };
         (
             kind,
-            places.into_iter().map(|at| self.node(at, x)).collect(),
+            places
+                .into_iter()
+                .map(|(column, layer)| self.node([column, layer], x))
+                .collect(),
         )
     }
 
@@ -112,7 +115,9 @@ impl Sheet {
 fn drum(
     dim: usize,
     kinematics: KinematicsModel,
-    (mortar, triangles, quadratic): (bool, bool, bool),
+    mortar: bool,
+    triangles: bool,
+    quadratic: bool,
     slip: SlipModel,
 ) -> Followed {
     let layers = if dim == 2 { 0 } else { LAYERS };
@@ -324,7 +329,7 @@ pub(super) fn all(dim: usize) -> Vec<(String, Followed)> {
         ),
     ] {
         // mortar, triangles, quadratic
-        for (name, kinematics, kind) in [
+        for (name, kinematics, (mortar, triangles, quadratic)) in [
             ("facets", convective(), (false, false, false)),
             ("the paper", pop(), (false, true, false)),
             ("mortar", convective(), (true, false, false)),
@@ -337,7 +342,10 @@ pub(super) fn all(dim: usize) -> Vec<(String, Followed)> {
             ),
         ] {
             let what = format!("{name}, {rule}, {dim}D");
-            out.push((what, drum(dim, kinematics, kind, slip.clone())));
+            out.push((
+                what,
+                drum(dim, kinematics, mortar, triangles, quadratic, slip.clone()),
+            ));
         }
     }
     out
@@ -462,7 +470,7 @@ fn a_point_on_a_drum_that_turns_carries_its_limit_against_its_slip() {
 fn small_sliding_carries_its_limit_in_the_plane_of_the_reference() {
     for mortar in [false, true] {
         let kinematics = KinematicsModel::SmallSliding(SmallSliding {});
-        let mut interface = drum(3, kinematics, (mortar, false, false), SlipModel::default());
+        let mut interface = drum(3, kinematics, mortar, false, false, SlipModel::default());
         let origin = start(&interface);
         let drum = interface.primary_nodes;
         let (s, c) = 0.02_f64.sin_cos();

@@ -22,8 +22,11 @@ pub(super) fn evaluate_mortar(i: usize, scene: &Scene, batch: &mut Batch) -> Eva
     let point = &interface.points[i];
     let sides = batch.sides.len();
     let sums = gather(
-        (mortar, &geometry.integrals),
-        (i, &point.nodes, point.across),
+        mortar,
+        &geometry.integrals,
+        i,
+        &point.nodes,
+        point.across,
         &mut batch.sides,
         &mut batch.sums,
     );
@@ -51,8 +54,10 @@ pub(super) fn evaluate_mortar(i: usize, scene: &Scene, batch: &mut Batch) -> Eva
         never_in_contact: interface.attempt.never_in_contact,
     };
     mean.stencil(
-        (&sums, length),
-        (&mut batch.sides, sides),
+        &sums,
+        length,
+        &mut batch.sides,
+        sides,
         &mut batch.sums,
         &mut batch.stencil,
     );
@@ -69,7 +74,7 @@ fn turned(i: usize, scene: &Scene) -> [Mat3; 2] {
         return [identity(), identity()];
     };
     let geometry = scene.geometry;
-    let at = (geometry.x.as_slice(), geometry.before.as_slice());
+    let (x, before) = (geometry.x.as_slice(), geometry.before.as_slice());
     let around = mortar.around[i].iter().map(|&(f, _)| f);
     let other = around
         .flat_map(|f| &geometry.integrals[f].pieces)
@@ -79,7 +84,7 @@ fn turned(i: usize, scene: &Scene) -> [Mat3; 2] {
         });
     let dim = interface.dofs.dim;
     [
-        rotation_of(faces_around(interface.definition, i), at, dim),
-        rotation_of(other, at, dim),
+        rotation_of(faces_around(interface.definition, i), x, before, dim),
+        rotation_of(other, x, before, dim),
     ]
 }

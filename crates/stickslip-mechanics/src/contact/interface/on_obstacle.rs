@@ -8,8 +8,8 @@ use super::initial::TOUCHING;
 use super::respond::respond;
 use super::scene::{Met, Scene};
 use crate::contact::kinematics::{
-    Part, RigidFoot, add_average_hessian, add_rigid_hessian, arriving_slip, average, rigid_stencil,
-    rotation_of,
+    ObstaclePair, Part, RigidFoot, add_average_hessian, add_rigid_hessian, arriving_slip, average,
+    rigid_stencil, rotation_of,
 };
 use crate::contact::obstacle::Shape;
 use crate::contact::response::Status;
@@ -30,33 +30,24 @@ pub(super) fn evaluate_rigid(
         point.position(nodes),
         point.position(&scene.geometry.before),
     );
-    let Some(feet) = rigid_stencil(
-        shape,
-        (pose, pose_before),
-        point,
-        (x, before),
-        scene.belt_seen(),
-        dim,
-        &mut batch.stencil,
-    ) else {
+    let over = ObstaclePair {
+        pose,
+        pose_before,
+        x,
+        x_before: before,
+    };
+    let belt = scene.belt_seen();
+    let Some(feet) = rigid_stencil(shape, over, point, belt, dim, &mut batch.stencil) else {
         return Evaluation::open(f64::INFINITY);
     };
     if arrives(i, &feet, scene) {
         let own = rotation_of(
             skin_around(interface.definition, i),
-            (nodes, &scene.geometry.before),
+            nodes,
+            &scene.geometry.before,
             dim,
         );
-        let told = (&own, &feet, scene.belt_seen());
-        let places = (x, before);
-        arriving_slip(
-            (pose, pose_before),
-            point,
-            places,
-            told,
-            dim,
-            &mut batch.stencil,
-        );
+        arriving_slip(over, point, &own, &feet, belt, dim, &mut batch.stencil);
     }
     // One with several nodes has the mean of their gaps.
     let mean = point.nodes.len() > 1;

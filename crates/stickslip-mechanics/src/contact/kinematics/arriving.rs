@@ -7,23 +7,29 @@
 //! So such a point has slipped by how fast it goes over the surface in the end, times the increment, in a motion with one velocity about one axis
 //! ([`slid`](super::turning::slid)). Of what rolls nothing is left of that but the part `(R²/r² - 1) φ²/12`: the two turn by different angles.
 
-use super::rigid::{RigidFoot, spread};
+use super::rigid::{ObstaclePair, RigidFoot, spread};
 use super::stencil::Stencil;
 use super::turning::{back, slid};
-use crate::contact::obstacle::Pose;
 use crate::contact::surface::ContactPoint;
 use crate::math::{Mat3, Vec3, add, add_scaled, dot, mat_vec, sub};
 
 /// Replaces the slip of a stencil over an obstacle, and its gradients, by those of a point that was away when the increment began; `own` is the rotation of the faces around
 /// the point since then, of whose change with displacements the gradients do not know.
 pub fn arriving_slip(
-    (pose, pose_before): (&Pose, &Pose),
+    over: ObstaclePair,
     point: &ContactPoint,
-    (x, x_before): (Vec3, Vec3),
-    (own, feet, belt): (&Mat3, &RigidFoot, Vec3),
+    own: &Mat3,
+    feet: &RigidFoot,
+    belt: Vec3,
     dim: usize,
     out: &mut Stencil,
 ) {
+    let ObstaclePair {
+        pose,
+        pose_before,
+        x,
+        x_before,
+    } = over;
     let columns = |of: &dyn Fn(Vec3) -> Vec3| -> [Vec3; 3] {
         [0, 1, 2].map(|j| {
             let mut e = [0.0; 3];
@@ -88,24 +94,21 @@ mod tests {
         });
         let mut motion = turning([0.0, -drum, 0.0], UP, angle * wheel / drum);
         motion.translation.clear();
-        let poses = (&motion.pose(1.0), &motion.pose(0.0));
+        let poses = [motion.pose(1.0), motion.pose(0.0)];
         let own = rotation(UP, -angle);
         let hub = [0.0, wheel, 0.0];
         let x_before = add(hub, back(&own, scale(-1.0, hub)));
         let mut s = Stencil::default();
-        let places = ([0.0; 3], x_before);
-        let feet = rigid_stencil(
-            shape.as_dyn(),
-            poses,
-            &single(),
-            places,
-            [0.0; 3],
-            2,
-            &mut s,
-        );
+        let over = ObstaclePair {
+            pose: &poses[0],
+            pose_before: &poses[1],
+            x: [0.0; 3],
+            x_before,
+        };
+        let feet = rigid_stencil(shape.as_dyn(), over, &single(), [0.0; 3], 2, &mut s);
         let feet = feet.expect("a foot");
         let way = s.slip[0];
-        arriving_slip(poses, &single(), places, (&own, &feet, [0.0; 3]), 2, &mut s);
+        arriving_slip(over, &single(), &own, &feet, [0.0; 3], 2, &mut s);
         [way, s.slip[0]].map(|slip| slip / (wheel * angle))
     }
 
@@ -136,17 +139,21 @@ mod tests {
         for shape in ObstacleShape::samples() {
             for angle in [0.0, 0.3, -1.0] {
                 let motion = turning([0.05, -0.02, 0.01], axis, angle);
-                let poses = (&motion.pose(1.0), &motion.pose(0.0));
+                let poses = [motion.pose(1.0), motion.pose(0.0)];
                 let own = rotation([0.48, 0.6, 0.64], 0.2);
                 let before = [0.3, -0.21, 0.16];
                 let belt = [0.05, -0.03, 0.02];
                 let at = |x: Vec3, own: &Mat3| {
                     let mut s = Stencil::default();
-                    let places = (x, before);
-                    let feet =
-                        rigid_stencil(shape.as_dyn(), poses, &single(), places, belt, 3, &mut s);
+                    let over = ObstaclePair {
+                        pose: &poses[0],
+                        pose_before: &poses[1],
+                        x,
+                        x_before: before,
+                    };
+                    let feet = rigid_stencil(shape.as_dyn(), over, &single(), belt, 3, &mut s);
                     let feet = feet.expect("a foot");
-                    arriving_slip(poses, &single(), places, (own, &feet, belt), 3, &mut s);
+                    arriving_slip(over, &single(), own, &feet, belt, 3, &mut s);
                     s
                 };
                 let x = [0.31, -0.22, 0.17];
@@ -168,7 +175,7 @@ mod tests {
                         );
                     }
                 }
-                let (now, then) = poses;
+                let [now, then] = poses;
                 let carried = now.outward(then.inward(before));
                 let turn = rotation(axis, angle);
                 let still = at(carried, &turn);

@@ -33,7 +33,9 @@ pub use moment::NodeSums;
 pub use mortar::{Carried, Gathered, MeanPoint, gather};
 pub use pop::Pop1995;
 pub use rate::{Moving, rate_slip};
-pub use rigid::{RigidFoot, add_rigid_hessian, carried_over, rigid_stencil, tangents};
+pub use rigid::{
+    ObstaclePair, RigidFoot, add_rigid_hessian, carried_over, rigid_stencil, tangents,
+};
 pub use small_sliding::SmallSliding;
 pub use stencil::{Kinematics, Pair, Stencil};
 pub use turning::{Part, of_points, rotation_of};

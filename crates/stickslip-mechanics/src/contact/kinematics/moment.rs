@@ -47,7 +47,9 @@ pub(super) fn add_arm(e: Vec3, normal: Vec3, parts: &[NodeSums], dim: usize, row
 
 /// Takes the moment about these axes, of coordinates, from each of the rows over `nodes` at `x`; those of the primary have a part in the reach.
 pub(super) fn remove(
-    (nodes, parts, x): (&[(usize, f64)], &[NodeSums], &[Vec3]),
+    nodes: &[(usize, f64)],
+    parts: &[NodeSums],
+    x: &[Vec3],
     axes: [bool; 3],
     dim: usize,
     rows: &mut [Vec<f64>; 3],

@@ -29,8 +29,11 @@ pub struct Gathered {
 
 /// Adds up what faces have integrated for point `i`, which hangs on `own` nodes: `nodes` and their weights, its own first, and what else they have in the `parts`.
 pub fn gather(
-    (mortar, integrals): (&Mortar, &[FaceIntegral]),
-    (i, own, across): (usize, &[usize], Across),
+    mortar: &Mortar,
+    integrals: &[FaceIntegral],
+    i: usize,
+    own: &[usize],
+    across: Across,
     nodes: &mut Vec<(usize, f64)>,
     parts: &mut Vec<NodeSums>,
 ) -> Gathered {
@@ -135,8 +138,10 @@ impl MeanPoint<'_> {
     /// have no part in it are removed.
     pub fn stencil(
         &self,
-        (sums, length): (&Gathered, f64),
-        (all, first): (&mut Vec<(usize, f64)>, usize),
+        sums: &Gathered,
+        length: f64,
+        all: &mut Vec<(usize, f64)>,
+        first: usize,
         parts: &mut [NodeSums],
         out: &mut Stencil,
     ) {
@@ -190,7 +195,7 @@ impl MeanPoint<'_> {
                 2 => [false, false, true],
                 _ => self.across.axes(),
             };
-            moment::remove((nodes, parts, self.x), axes, dim, &mut out.rows);
+            moment::remove(nodes, parts, self.x, axes, dim, &mut out.rows);
         }
         remove_idle(all, first, parts, dim, out);
         [moved, arm] = [moved, arm].map(|v| self.across.within(v));

@@ -91,6 +91,9 @@ struct Start {
     place: Vec3,
     normal: Vec3,
     directions: [Vec3; 2],
+    /// The angle by which the obstacle has turned since then, and how much of that the point has gone along.
+    turn: f64,
+    follow: Dual,
 }
 
 /// The way of a point over the obstacle: along the surface to where it is now, after the obstacle has turned under it by `turn - follow`.
@@ -105,9 +108,9 @@ fn way(
     y: Vec3,
     foot: &Foot,
     from: &Start,
-    (turn, follow): (f64, Dual),
     dim: usize,
 ) -> Option<Way> {
+    let Start { turn, follow, .. } = *from;
     let (centre, axis) = pose.axis();
     // what `follow` does to what it turns about the axis
     let under = rotation(axis, follow.value - turn);
@@ -175,19 +178,37 @@ fn product(a: &Mat3, b: &Mat3) -> Mat3 {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
 }
 
+/// An obstacle and a point, now and when the increment began.
+#[derive(Debug, Clone, Copy)]
+pub struct ObstaclePair<'a> {
+    /// Where the obstacle is.
+    pub pose: &'a Pose,
+    /// Where it was.
+    pub pose_before: &'a Pose,
+    /// Where the point is.
+    pub x: Vec3,
+    /// Where it was.
+    pub x_before: Vec3,
+}
+
 /// Gap and slip of a point over a rigid obstacle. The slip is the length of the way of the foot over the obstacle since the last accepted state, and tractions
 /// are turned as they go along it: the directions of the frame are unit vectors of the tangent plane of now, whatever the turn.
 ///
 /// `belt` is the way of the belt that friction sees. Returns what second derivatives need, or `None` at a centre.
 pub fn rigid_stencil(
     shape: &dyn Shape,
-    (pose, pose_before): (&Pose, &Pose),
+    over: ObstaclePair,
     point: &ContactPoint,
-    (x, x_before): (Vec3, Vec3),
     belt: Vec3,
     dim: usize,
     out: &mut Stencil,
 ) -> Option<RigidFoot> {
+    let ObstaclePair {
+        pose,
+        pose_before,
+        x,
+        x_before,
+    } = over;
     let y = pose.inward(x);
     let foot = shape.foot(y)?;
     let place = pose_before.inward(x_before);
@@ -196,10 +217,10 @@ pub fn rigid_stencil(
         place,
         normal: anchor.normal,
         directions: tangents(anchor.normal, dim),
+        turn: pose.turned_since(pose_before),
+        follow: followed(pose, pose_before, x, x_before),
     };
-    let follow = followed(pose, pose_before, x, x_before);
-    let turn = pose.turned_since(pose_before);
-    let way = way(shape, pose, y, &foot, &from, (turn, follow), dim)?;
+    let way = way(shape, pose, y, &foot, &from, dim)?;
     let n = point.nodes.len() * dim;
     out.reset(n);
     out.gap = foot.gap;

@@ -398,8 +398,13 @@ fn rigid_stencils_agree_with_differences() {
             let at = |x: &[Vec3; 2]| {
                 let place = point.position(x);
                 let mut s = Stencil::default();
-                let poses = (&poses.0, &poses.1);
-                let feet = rigid_stencil(shape, poses, &point, (place, before), BELT, 3, &mut s);
+                let over = ObstaclePair {
+                    pose: &poses.0,
+                    pose_before: &poses.1,
+                    x: place,
+                    x_before: before,
+                };
+                let feet = rigid_stencil(shape, over, &point, BELT, 3, &mut s);
                 (s, feet.expect("off the centre"))
             };
             let (s, feet) = at(&x);
@@ -463,17 +468,13 @@ fn slip_over(
 ) -> (Vec3, Stencil) {
     let point = single();
     let mut s = Stencil::default();
-    let poses = (&motion.pose(1.0), &motion.pose(0.0));
-    rigid_stencil(
-        shape.as_dyn(),
-        poses,
-        &point,
-        (x, before),
-        [0.0; 3],
-        dim,
-        &mut s,
-    )
-    .expect("a foot");
+    let over = ObstaclePair {
+        pose: &motion.pose(1.0),
+        pose_before: &motion.pose(0.0),
+        x,
+        x_before: before,
+    };
+    rigid_stencil(shape.as_dyn(), over, &point, [0.0; 3], dim, &mut s).expect("a foot");
     (
         add_scaled(scale(s.slip[0], s.frame[0]), s.slip[1], s.frame[1]),
         s,

@@ -13,7 +13,8 @@ pub type Part<'a> = (&'a [usize], f64);
 /// patch moves as a rigid one, whatever the angle, and the same for any numbering.
 pub fn rotation_of<'a>(
     parts: impl Iterator<Item = Part<'a>> + Clone,
-    (x, before): (&[Vec3], &[Vec3]),
+    x: &[Vec3],
+    before: &[Vec3],
     dim: usize,
 ) -> Mat3 {
     let axis = |at: &[Vec3]| match dim {
@@ -46,7 +47,8 @@ pub fn rotation_of<'a>(
 /// ([`horn_1987`](stickslip_base::references::horn_1987)), which is one for nodes in a plane too, and whatever the angle.
 pub fn of_points(
     nodes: impl Iterator<Item = usize> + Clone,
-    (x, before): (&[Vec3], &[Vec3]),
+    x: &[Vec3],
+    before: &[Vec3],
     dim: usize,
 ) -> Mat3 {
     let (mut from, mut to, mut count) = ([0.0; 3], [0.0; 3], 0.0);
@@ -193,7 +195,7 @@ mod tests {
             let turn = rotation([0.48, 0.6, 0.64], angle);
             let moved = |x: &Vec3| add(mat_vec(&turn, *x), [3.0, -1.0, 0.5]);
             let now: Vec<Vec3> = PATCH.iter().map(moved).collect();
-            let found = rotation_of(parts(), (&now, &PATCH), 3);
+            let found = rotation_of(parts(), &now, &PATCH, 3);
             for (a, b) in found.iter().zip(&turn) {
                 assert!(norm(sub(*a, *b)) < 1e-14, "{angle}");
             }
@@ -212,7 +214,7 @@ mod tests {
                     before[2][2] = 0.0;
                     let moved = |x: &Vec3| add(mat_vec(&turn, *x), [3.0, -1.0, 0.5]);
                     let now: Vec<Vec3> = before.iter().map(moved).collect();
-                    let found = of_points(0..count, (&now, &before), dim);
+                    let found = of_points(0..count, &now, &before, dim);
                     for (a, b) in found.iter().zip(&turn) {
                         assert!(norm(sub(*a, *b)) < 1e-14, "{dim}D {angle}: {a:?} {b:?}");
                     }
@@ -228,7 +230,7 @@ mod tests {
             let turn = rotation([0.0, 0.0, 1.0], angle);
             let now = before.map(|x| mat_vec(&turn, x));
             let line = [(&[0, 1][..], 1.0)];
-            let found = rotation_of(line.into_iter(), (&now, &before), 2);
+            let found = rotation_of(line.into_iter(), &now, &before, 2);
             for (a, b) in found.iter().zip(&turn) {
                 assert!(norm(sub(*a, *b)) < 1e-15, "{angle}");
             }

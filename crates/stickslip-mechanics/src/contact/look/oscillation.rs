@@ -244,8 +244,10 @@ mod tests {
             pressure: pressure(x[0], x[1], k / SIDE + k % SIDE),
             ..PointHistory::default()
         });
-        let mut state = History::default();
-        state.points = history.collect();
+        let state = History {
+            points: history.collect(),
+            ..History::default()
+        };
         interface.definition.reference = reference;
         oscillation(interface.view(&state))
     }

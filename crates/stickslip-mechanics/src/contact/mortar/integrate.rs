@@ -9,7 +9,7 @@ use super::plane::Plane;
 use super::rim::{self, Rim};
 use super::sides::Sides;
 use super::sum::sum;
-use super::view::{Sample, View, Wall, gather, looks_back};
+use super::view::{MetFacet, Sample, View, Wall, gather, looks_back};
 use super::window::Window;
 use crate::contact::projection::Patch;
 use crate::contact::walls::depth_behind;
@@ -62,7 +62,7 @@ pub fn integrate(
         out.clear();
         return;
     }
-    sum((face, merged), sides, &scratch.samples, out);
+    sum(face, merged, sides, &scratch.samples, out);
 }
 
 /// Facets that may lie opposite, and whether an outer edge of the primary is among theirs.
@@ -120,8 +120,13 @@ fn meet<W: Window>(
                 facet: f,
             };
             window.places(&part, facet.kind, &mut |xi, w| {
-                let met = (piece, &patch, (&wall, &rim));
-                view.sample((xi, w), met, &mut start, &mut scratch.samples);
+                let met = MetFacet {
+                    piece,
+                    facet: &patch,
+                    wall: &wall,
+                    rim: &rim,
+                };
+                view.sample(xi, w, met, &mut start, &mut scratch.samples);
             });
         }
     }

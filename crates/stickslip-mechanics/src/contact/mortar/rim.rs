@@ -37,7 +37,7 @@ pub(super) struct Rim<'a> {
 
 impl Rim<'_> {
     /// The gradient of a gap that is measured along `normal` from the place `from` of the face to `foot` on the facet, whose normal is `m`.
-    pub fn direction(&self, (from, normal): (Vec3, Vec3), (foot, m): (Vec3, Vec3)) -> Vec3 {
+    pub fn direction(&self, from: Vec3, normal: Vec3, foot: Vec3, m: Vec3) -> Vec3 {
         let plain = scale(-1.0 / dot(normal, m), m);
         if !self.ends {
             return plain;

@@ -14,7 +14,8 @@ const FAR: f64 = 0.05;
 
 /// Sums over the quadrature points.
 pub(super) fn sum(
-    (face, merged): (&Face, Merged),
+    face: &Face,
+    merged: Merged,
     sides: &Sides,
     samples: &[Sample],
     out: &mut FaceIntegral,

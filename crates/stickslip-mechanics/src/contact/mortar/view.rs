@@ -155,6 +155,15 @@ pub(super) struct View<'a> {
     pub normals: [Vec3; FACE_NODES],
 }
 
+/// A facet that the face may meet: part of a piece, with the wall behind it and its rim.
+#[derive(Clone, Copy)]
+pub(super) struct MetFacet<'a> {
+    pub piece: usize,
+    pub facet: &'a Patch,
+    pub wall: &'a Wall<'a>,
+    pub rim: &'a Rim<'a>,
+}
+
 impl View<'_> {
     /// Whether a place has come behind a facet with normal `m` since the last accepted state: it was not beyond the wall then.
     fn enters(
@@ -187,11 +196,18 @@ impl View<'_> {
     /// Adds a quadrature point at `xi` of weight `w` in reference coordinates, if the facet is met there, and it is not beyond the `wall` behind it.
     pub fn sample(
         &self,
-        (xi, w): (Point, f64),
-        (piece, facet, (wall, rim)): (usize, &Patch, (&Wall, &Rim)),
+        xi: Point,
+        w: f64,
+        met: MetFacet,
         start: &mut Point,
         out: &mut Vec<Sample>,
     ) {
+        let MetFacet {
+            piece,
+            facet,
+            wall,
+            rim,
+        } = met;
         let kind = self.face.kind;
         let there = place(kind, &self.reference, xi);
         let area = match kind.dim() {
@@ -227,7 +243,7 @@ impl View<'_> {
             opposite,
             place: *start,
             gap,
-            direction: rim.direction((from, normal), (add_scaled(from, gap, normal), m)),
+            direction: rim.direction(from, normal, add_scaled(from, gap, normal), m),
             levers: levers(&a, gap, &slopes[..facet.kind.node_count()]),
         });
     }

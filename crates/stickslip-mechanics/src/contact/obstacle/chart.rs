@@ -55,7 +55,7 @@ fn across(n: Vec3, dim: usize) -> [Vec3; 2] {
 
 impl Chart {
     /// Of a plane through a point with a unit normal, with places about `spacing` apart.
-    pub fn plane(point: Vec3, normal: Vec3, (dim, spacing): (usize, f64)) -> Self {
+    pub fn plane(point: Vec3, normal: Vec3, dim: usize, spacing: f64) -> Self {
         let [a, b] = across(normal, dim);
         Chart {
             surface: Surface::Plane,
@@ -83,11 +83,7 @@ impl Chart {
     }
 
     /// Of a cylinder about an axis through a point; of a circle in the plane.
-    pub fn cylinder(
-        (centre, axis): (Vec3, Vec3),
-        radius: f64,
-        (dim, spacing): (usize, f64),
-    ) -> Self {
+    pub fn cylinder(centre: Vec3, axis: Vec3, radius: f64, dim: usize, spacing: f64) -> Self {
         let [a, b] = match dim {
             2 => [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
             _ => across(axis, dim),
@@ -104,7 +100,7 @@ impl Chart {
 
     /// Of a sphere; of a circle in the plane.
     pub fn sphere(centre: Vec3, radius: f64, dim: usize, spacing: f64) -> Self {
-        let circle = Chart::cylinder((centre, [0.0, 0.0, 1.0]), radius, (dim, spacing));
+        let circle = Chart::cylinder(centre, [0.0, 0.0, 1.0], radius, dim, spacing);
         match dim {
             2 => circle,
             _ => Chart {
@@ -260,11 +256,11 @@ mod tests {
     fn charts() -> Vec<Chart> {
         let axis = normalize([0.2, 0.1, 1.0]).unwrap();
         vec![
-            Chart::plane([0.1, 0.2, 0.3], axis, (3, 0.07)),
-            Chart::plane([0.1, 0.2, 0.3], axis, (3, 0.07)).along([1.0, 1.0, 0.0]),
-            Chart::cylinder(([0.1, 0.2, 0.3], axis), 0.5, (3, 0.07)),
+            Chart::plane([0.1, 0.2, 0.3], axis, 3, 0.07),
+            Chart::plane([0.1, 0.2, 0.3], axis, 3, 0.07).along([1.0, 1.0, 0.0]),
+            Chart::cylinder([0.1, 0.2, 0.3], axis, 0.5, 3, 0.07),
             Chart::sphere([0.1, 0.2, 0.3], 0.5, 3, 0.07),
-            Chart::plane([0.1, 0.2, 0.0], [0.6, 0.8, 0.0], (2, 0.07)),
+            Chart::plane([0.1, 0.2, 0.0], [0.6, 0.8, 0.0], 2, 0.07),
             Chart::sphere([0.0, 0.2, 0.0], 0.5, 2, 0.07),
         ]
     }

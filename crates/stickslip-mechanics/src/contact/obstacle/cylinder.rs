@@ -62,8 +62,8 @@ impl Shape for Cylinder {
     }
 
     fn chart(&self, dim: usize, spacing: f64) -> Chart {
-        let axis = (to_vec3(&self.centre), self.direction());
-        Chart::cylinder(axis, self.radius, (dim, spacing))
+        let centre = to_vec3(&self.centre);
+        Chart::cylinder(centre, self.direction(), self.radius, dim, spacing)
     }
 
     fn faults(&self, dim: usize) -> Vec<(&'static str, String)> {

@@ -41,7 +41,7 @@ impl Shape for Plane {
 
     fn chart(&self, dim: usize, spacing: f64) -> Chart {
         let normal = normalize(to_vec3(&self.normal)).unwrap_or([0.0, 1.0, 0.0]);
-        Chart::plane(to_vec3(&self.point), normal, (dim, spacing))
+        Chart::plane(to_vec3(&self.point), normal, dim, spacing)
     }
 
     fn faults(&self, dim: usize) -> Vec<(&'static str, String)> {

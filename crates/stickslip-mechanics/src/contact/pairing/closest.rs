@@ -122,7 +122,7 @@ impl Choice<'_> {
             }
             let better = match &best {
                 None => true,
-                Some((b, held)) => self.better((f, &look), (*b, held), previous.facet),
+                Some((b, held)) => self.better(f, &look, *b, held, previous.facet),
             };
             if better {
                 best = Some((f, look));
@@ -237,8 +237,10 @@ impl Choice<'_> {
     /// Whether facet `f` is the point's own rather than `b`.
     fn better(
         &self,
-        (f, look): (usize, &Look),
-        (b, held): (usize, &Look),
+        f: usize,
+        look: &Look,
+        b: usize,
+        held: &Look,
         previous: Option<usize>,
     ) -> bool {
         // Distances equal but for rounding: an edge both facets share.
@@ -247,16 +249,16 @@ impl Choice<'_> {
             (true, false, true) => true,
             (false, true, true) => false,
             (_, _, true) if previous == Some(f) || previous == Some(b) => previous == Some(f),
-            (_, _, true) => self.precedes((f, look), (b, held)),
+            (_, _, true) => self.precedes(f, look, b, held),
             _ => look.away < held.away,
         }
     }
 
     /// Which of two facets that are equally near the point is its own, whatever their numbers: the one that looks at it more, or, where they look alike, the
     /// one whose middle comes first in the reference configuration.
-    fn precedes(&self, a: (usize, &Look), b: (usize, &Look)) -> bool {
+    fn precedes(&self, f: usize, look: &Look, b: usize, held: &Look) -> bool {
         let facing = |look: &Look| dot(look.p.normal, self.outward);
-        let apart = facing(a.1) - facing(b.1);
+        let apart = facing(look) - facing(held);
         if apart.abs() > TIE {
             return apart < 0.0;
         }
@@ -267,8 +269,8 @@ impl Choice<'_> {
                 .fold([0.0; 3], |s, &n| add(s, self.reference[n]));
             scale(1.0 / nodes.len() as f64, sum)
         };
-        let first = sub(middle(a.0), middle(b.0));
-        let tie = TIE.sqrt() * a.1.size;
+        let first = sub(middle(f), middle(b));
+        let tie = TIE.sqrt() * look.size;
         first
             .iter()
             .find(|d| d.abs() > tie)

@@ -33,7 +33,7 @@ impl Annulus<'_> {
             })
             .collect();
         let (element, diagonal) = (self.element, Diagonal::default());
-        Lattice::closed(2, element, diagonal, (&cells, 2 * columns), |key| {
+        Lattice::closed(2, element, diagonal, &cells, 2 * columns, |key| {
             let [angle, radius] = polar(key);
             let (sine, cosine) = angle.sin_cos();
             let [x, y] = self.centre;

@@ -79,7 +79,7 @@ impl Lattice {
         cells: &[LatticeCell],
         position: impl Fn(Key) -> Vec3,
     ) -> Result<Lattice, MeshError> {
-        Lattice::closed(dim, element, diagonal, (cells, usize::MAX), position)
+        Lattice::closed(dim, element, diagonal, cells, usize::MAX, position)
     }
 
     /// The same where the first direction begins anew after `period` positions.
@@ -87,7 +87,8 @@ impl Lattice {
         dim: usize,
         element: ElementKind,
         diagonal: Diagonal,
-        (cells, period): (&[LatticeCell], usize),
+        cells: &[LatticeCell],
+        period: usize,
         position: impl Fn(Key) -> Vec3,
     ) -> Result<Lattice, MeshError> {
         if element.dim() != dim {

@@ -32,7 +32,8 @@ impl<'a> CondensedBulk<'a> {
     /// A bulk under a load at the candidates, at `base + W guess` to start with. `diagonal` is that of the matrix, by dof; `scale` the size of
     /// forces that balance each other elsewhere.
     pub fn new(
-        (condensation, system): (&'a Condensation, &'a mut ReducedSystem),
+        condensation: &'a Condensation,
+        system: &'a mut ReducedSystem,
         diagonal: &'a [f64],
         load: Vec<f64>,
         base: Vec<f64>,
@@ -131,10 +132,10 @@ impl Bulk for CondensedBulk<'_> {
         b: &[f64],
         tolerance: f64,
         du: &mut [f64],
-        effort: (&Settings, &mut Statistics),
+        settings: &Settings,
+        statistics: &mut Statistics,
     ) -> Result<usize, StepFailure> {
         let started = std::time::Instant::now();
-        let (settings, statistics) = effort;
         let b = self.condensation.gather(b);
         // More digits than these cost more than another iteration, unless next to nothing is solved.
         let asked = settings.linear_tolerance;
@@ -149,7 +150,8 @@ impl Bulk for CondensedBulk<'_> {
             &contact.blocks,
             &b,
             tolerance,
-            (settings, &mut *statistics),
+            settings,
+            &mut *statistics,
         );
         // Products with a compliance that an engine had are no numbers then.
         if let Some(fault) = self.condensation.fault() {

@@ -7,10 +7,9 @@ use rayon::prelude::*;
 use super::file;
 use super::identity::{Identity, Part};
 use super::library::{Library, Reserved, Source};
-use super::substructure::{Seconds, Substructure, SweptPart};
+use super::substructure::{ArtificialSprings, Seconds, Substructure, SweptPart};
 use crate::lease::Lease;
 use crate::linear::{Engine, FactorEffort, LinearError, Matrix, Ordered, Workspace};
-use crate::math::Vec3;
 use crate::math::vector::dot;
 
 /// What is to be condensed: known before any arithmetic.
@@ -79,9 +78,6 @@ pub struct Effort {
     pub notes: Vec<String>,
 }
 
-/// Where points are: `None` for the hidden points of rigid bodies.
-pub type Places<'a> = &'a (dyn Fn(usize) -> Option<Vec3> + Sync);
-
 /// What a plan costs.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Cost {
@@ -103,17 +99,18 @@ pub struct Cost {
 
 impl Plan {
     /// Looks for the substructures of every part of the model, given by its points, and lets the engine order those that were not made before. Parts must not be
-    /// coupled. `fixed` marks dofs that are no unknowns, `kept` the points that may come into contact; `typical` is a stiffness for springs where
-    /// there is no other `[N/m]`.
+    /// coupled. `fixed` marks dofs that are no unknowns, `kept` the points that may come into contact.
     ///
     /// # Errors
     /// Those of [`Engine::order`].
     pub fn new(
         matrix: &dyn Matrix,
         parts: &[Range<usize>],
-        (fixed, kept): (&[bool], &[bool]),
-        (places, typical): (Places, f64),
-        (library, engine): (&Library, &Arc<dyn Engine>),
+        fixed: &[bool],
+        kept: &[bool],
+        springs: ArtificialSprings,
+        library: &Library,
+        engine: &Arc<dyn Engine>,
     ) -> Result<Plan, LinearError> {
         let started = Instant::now();
         let find = |points: &Range<usize>| {
@@ -124,7 +121,7 @@ impl Plan {
                 kept,
             };
             let (identity, analysis) = (
-                part.substructure(places, typical)
+                part.substructure(springs.places, springs.typical)
                     .made_by(engine.identity()),
                 part.analysis().made_by(engine.identity()),
             );
@@ -230,8 +227,9 @@ impl Plan {
     /// holds none, so that no two processes wait for each other.
     fn carry_out(
         self,
-        (matrix, held): (&dyn Matrix, &[bool]),
-        (places, typical): (Places, f64),
+        matrix: &dyn Matrix,
+        held: &[bool],
+        springs: ArtificialSprings,
         library: &Library,
         waits: &dyn Fn() -> bool,
     ) -> Result<(Vec<Arc<Substructure>>, Effort), LinearError> {
@@ -265,8 +263,8 @@ impl Plan {
             {
                 return Ok((found, source, note));
             }
-            let body = (part.identity, ordered, matrix);
-            let made = Arc::new(Substructure::new(body, (places, typical), &workspace)?);
+            let made = Substructure::new(part.identity, ordered, matrix, springs, &workspace)?;
+            let made = Arc::new(made);
             let note = library.keep(&made);
             drop(lease);
             Ok((made, Source::Made, note))
@@ -370,12 +368,13 @@ impl Condensation {
     /// Those of [`Substructure::new`].
     pub fn new(
         plan: Plan,
-        (matrix, held): (&dyn Matrix, &[bool]),
-        springs: (Places, f64),
+        matrix: &dyn Matrix,
+        held: &[bool],
+        springs: ArtificialSprings,
         library: &Library,
         waits: &dyn Fn() -> bool,
     ) -> Result<(Condensation, Effort), LinearError> {
-        let (parts, effort) = plan.carry_out((matrix, held), springs, library, waits)?;
+        let (parts, effort) = plan.carry_out(matrix, held, springs, library, waits)?;
         let (mut starts, mut dofs) = (vec![0], Vec::new());
         for part in &parts {
             dofs.extend(part.root().iter().map(|&d| d as usize));

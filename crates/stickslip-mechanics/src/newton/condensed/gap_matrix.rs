@@ -265,10 +265,12 @@ mod tests {
         let library = Library::new(0);
         let (fixed, kept) = (vec![false; matrix.rows()], vec![true; 2 * POINTS]);
         let parts = [0..POINTS, POINTS..2 * POINTS];
-        let springs: (super::super::Places, f64) = (&|_| None, 1.0);
-        let with = (&library, &engine);
-        let plan = Plan::new(&matrix, &parts, (&fixed, &kept), springs, with).unwrap();
-        let made = Condensation::new(plan, (&matrix, &fixed), springs, &library, &|| true);
+        let springs = super::super::ArtificialSprings {
+            places: &|_| None,
+            typical: 1.0,
+        };
+        let plan = Plan::new(&matrix, &parts, &fixed, &kept, springs, &library, &engine).unwrap();
+        let made = Condensation::new(plan, &matrix, &fixed, springs, &library, &|| true);
         made.unwrap().0
     }
 

@@ -11,19 +11,22 @@
 
 use super::gap_matrix::Placed;
 use super::preconditioner::Preconditioner;
-use super::rows::Rows;
+use super::rows::GapRows;
 use super::tangent::{Precision, Tangent};
 use crate::linear::{GmresReport, GmresSettings, gmres_inexact};
 
 /// Finds the forces at the active dofs from the displacements `u` that they have without; `None` where gaps curve, bodies float, or the factor is of other
 /// points. `kept` has the products with the compliance if they were made before.
 pub(super) fn solve(
-    (tangent, preconditioner): (&Tangent, &Preconditioner),
-    (rows, count): (&[Rows], usize),
+    tangent: &Tangent,
+    preconditioner: &Preconditioner,
+    gaps: GapRows,
     kept: Option<&Placed>,
     u: &[f64],
-    (precision, settings): (Precision, GmresSettings),
+    precision: Precision,
+    settings: GmresSettings,
 ) -> Option<(Vec<f64>, GmresReport)> {
+    let GapRows { rows, count } = gaps;
     if !straight(tangent) || !preconditioner.is_of(rows, count) {
         return None;
     }

@@ -198,8 +198,11 @@ impl Library {
 
     fn shelve(&self, substructure: &Arc<Substructure>) {
         let mut shelves = self.shelves();
-        let bytes = substructure.bytes();
-        let entry = (substructure.identity, Arc::clone(substructure), bytes);
+        let entry = Entry {
+            identity: substructure.identity,
+            made: Arc::clone(substructure),
+            bytes: substructure.bytes(),
+        };
         shelves.substructures.keep(entry, self.limit);
     }
 
@@ -211,7 +214,11 @@ impl Library {
 
     /// Keeps an analysis.
     pub(super) fn keep_analysis(&self, identity: Identity, ordered: &Arc<dyn Ordered>) {
-        let entry = (identity, Arc::clone(ordered), ordered.bytes());
+        let entry = Entry {
+            identity,
+            made: Arc::clone(ordered),
+            bytes: ordered.bytes(),
+        };
         self.shelves().analyses.keep(entry, self.limit / ANALYSES);
     }
 
@@ -240,7 +247,11 @@ impl Library {
             return found;
         }
         let made = Arc::new(assemble());
-        let entry = (identity, Arc::clone(&made), made.bytes());
+        let entry = Entry {
+            identity,
+            made: Arc::clone(&made),
+            bytes: made.bytes(),
+        };
         self.shelves()
             .stiffnesses
             .keep(entry, self.limit / STIFFNESSES);
@@ -251,7 +262,15 @@ impl Library {
 /// Things with their identity and size, the least recently used one first.
 #[derive(Debug)]
 struct Shelf<T: ?Sized> {
-    entries: Vec<(Identity, Arc<T>, u64)>,
+    entries: Vec<Entry<T>>,
+}
+
+/// A thing with its identity and size `[bytes]`.
+#[derive(Debug)]
+struct Entry<T: ?Sized> {
+    identity: Identity,
+    made: Arc<T>,
+    bytes: u64,
 }
 
 impl<T: ?Sized> Default for Shelf<T> {
@@ -264,19 +283,19 @@ impl<T: ?Sized> Default for Shelf<T> {
 
 impl<T: ?Sized> Shelf<T> {
     fn find(&mut self, identity: Identity) -> Option<Arc<T>> {
-        let at = self.entries.iter().position(|e| e.0 == identity)?;
+        let at = self.entries.iter().position(|e| e.identity == identity)?;
         let entry = self.entries.remove(at);
-        let found = Arc::clone(&entry.1);
+        let found = Arc::clone(&entry.made);
         self.entries.push(entry);
         Some(found)
     }
 
-    fn keep(&mut self, entry: (Identity, Arc<T>, u64), limit: u64) {
-        self.entries.retain(|e| e.0 != entry.0);
+    fn keep(&mut self, entry: Entry<T>, limit: u64) {
+        self.entries.retain(|e| e.identity != entry.identity);
         self.entries.push(entry);
-        let mut all: u64 = self.entries.iter().map(|e| e.2).sum();
+        let mut all: u64 = self.entries.iter().map(|e| e.bytes).sum();
         while all > limit && !self.entries.is_empty() {
-            all -= self.entries.remove(0).2;
+            all -= self.entries.remove(0).bytes;
         }
     }
 }
@@ -301,17 +320,22 @@ mod tests {
     fn what_was_used_least_recently_goes_first() {
         let [a, b, c, d] = [0, 1, 2, 3].map(identity);
         let mut shelf = Shelf::default();
+        let entry = |identity, bytes| Entry {
+            identity,
+            made: Arc::new(()),
+            bytes,
+        };
         for one in [a, b, c] {
-            shelf.keep((one, Arc::new(()), 10), 35);
+            shelf.keep(entry(one, 10), 35);
         }
         assert!(shelf.find(a).is_some());
-        shelf.keep((d, Arc::new(()), 10), 35);
+        shelf.keep(entry(d, 10), 35);
         assert!(shelf.find(b).is_none());
         assert!([a, c, d].iter().all(|&one| shelf.find(one).is_some()));
         // Kept again it counts once; what is too large alone is not kept at all.
-        shelf.keep((d, Arc::new(()), 15), 35);
+        shelf.keep(entry(d, 15), 35);
         assert_eq!(shelf.entries.len(), 3);
-        shelf.keep((b, Arc::new(()), 36), 35);
+        shelf.keep(entry(b, 36), 35);
         assert!(shelf.entries.is_empty());
     }
 

@@ -36,9 +36,9 @@ mod substructure;
 mod tangent;
 
 pub use bulk::CondensedBulk;
-pub use condensation::{Condensation, Cost, Effort, Places, Plan, Swept};
+pub use condensation::{Condensation, Cost, Effort, Plan, Swept};
 pub use identity::{Identity, Part};
 pub use library::{CACHE_NOTE, Library, Source};
 pub use load_patterns::{Amplitudes, LoadPatterns, PatternsRecipe};
 pub use reduced_system::{ReducedRecipe, ReducedSolution, ReducedSystem};
-pub use substructure::{Floating, Seconds, Substructure};
+pub use substructure::{ArtificialSprings, Floating, Seconds, Substructure};

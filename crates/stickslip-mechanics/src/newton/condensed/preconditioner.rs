@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use super::gap_matrix::{GapMatrix, Placed};
 use super::lu::Lu;
-use super::rows::Rows;
+use super::rows::{GapRows, Rows};
 use super::small_matrix::SmallMatrix;
 use super::tangent::{Precision, Tangent};
 use crate::math::vector::dot;
@@ -45,9 +45,10 @@ impl Preconditioner {
     /// Factors the tangent of an iteration, with the compliance of gaps and slips if it is known.
     pub fn of(
         tangent: &Tangent,
-        (rows, count): (&[Rows], usize),
+        of: GapRows,
         gaps: Option<&GapMatrix>,
     ) -> Result<Preconditioner, StepFailure> {
+        let GapRows { rows, count } = of;
         let factored = Factored {
             rows: Arc::new(rows.to_vec()),
             count,

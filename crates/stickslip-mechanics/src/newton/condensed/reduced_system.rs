@@ -5,7 +5,7 @@ use super::condensation::Condensation;
 use super::gap_matrix::{self, GapMatrix};
 use super::gap_space;
 use super::preconditioner::{Factored, Preconditioner, SMALL};
-use super::rows::Rows;
+use super::rows::{GapRows, Rows};
 use super::tangent::{Precision, Spring, Tangent};
 use crate::linear::{GmresSettings, gmres_inexact};
 use crate::math::vector::norm;
@@ -190,7 +190,8 @@ impl ReducedSystem {
         blocks: &[ContactBlock],
         b: &[f64],
         tolerance: f64,
-        (settings, statistics): (&Settings, &mut Statistics),
+        settings: &Settings,
+        statistics: &mut Statistics,
     ) -> Result<ReducedSolution, StepFailure> {
         let springs = springs(condensation);
         if blocks.is_empty() && springs.is_empty() {
@@ -239,15 +240,15 @@ impl ReducedSystem {
             .clamp(TOLERANCES.0, TOLERANCES.1);
         let (rows, count) = Rows::of(tangent.blocks);
         keep_gaps(&mut self.gaps, &mut self.seen, &rows, count, &tangent);
-        let gaps = self.gaps.as_ref();
-        let (y, iterations) = solve_preconditioned(
-            &tangent,
-            (&rows, count),
-            (&mut self.preconditioner, gaps),
-            (&u, &rhs),
-            tolerance,
-            (settings, statistics),
-        )?;
+        let known = Known {
+            displacements: &u,
+            forces: &rhs,
+            gaps: self.gaps.as_ref(),
+        };
+        let rows = GapRows { rows: &rows, count };
+        let kept = &mut self.preconditioner;
+        let (y, iterations) =
+            solve_preconditioned(&tangent, rows, kept, known, tolerance, settings, statistics)?;
         let mut forces = b.to_vec();
         tangent.add_forces(&y, &mut forces);
         Ok(ReducedSolution {
@@ -298,16 +299,32 @@ fn keep_gaps(
     *seen = keys;
 }
 
+/// What is known before the forces along gaps are.
+struct Known<'a> {
+    /// The displacements without them.
+    displacements: &'a [f64],
+    /// The right-hand side: forces on the active dofs.
+    forces: &'a [f64],
+    /// The compliance of gaps and slips, where it is kept.
+    gaps: Option<&'a GapMatrix>,
+}
+
 /// Solves with the factor that was kept, or with a fresh one where that does not do; which is kept if it is good. Returns the solution and all
 /// iterations.
 fn solve_preconditioned(
     tangent: &Tangent,
-    (rows, count): (&[Rows], usize),
-    (kept, gaps): (&mut Option<Preconditioner>, Option<&GapMatrix>),
-    (u, rhs): (&[f64], &[f64]),
+    rows: GapRows,
+    kept: &mut Option<Preconditioner>,
+    known: Known,
     tolerance: f64,
-    (settings, statistics): (&Settings, &mut Statistics),
+    settings: &Settings,
+    statistics: &mut Statistics,
 ) -> Result<(Vec<f64>, usize), StepFailure> {
+    let Known {
+        displacements: u,
+        forces: rhs,
+        gaps,
+    } = known;
     let patience = settings.krylov_patience;
     // Where next to nothing holds a body, single precision would not see what does. A preconditioner need not be exact.
     let coarse = match tangent.springs.is_empty() && tangent.active.len() > SMALL {
@@ -321,7 +338,7 @@ fn solve_preconditioned(
             None => Factor::Fresh,
         },
     };
-    let placed = gaps.and_then(|gaps| gaps.place(rows));
+    let placed = gaps.and_then(|gaps| gaps.place(rows.rows));
     statistics.kept_gaps += usize::from(placed.is_some());
     let mut spent = 0;
     loop {
@@ -329,16 +346,18 @@ fn solve_preconditioned(
             Some(preconditioner) => &*preconditioner,
             None => {
                 statistics.reduced += 1;
-                kept.insert(Preconditioner::of(tangent, (rows, count), gaps)?)
+                kept.insert(Preconditioner::of(tangent, rows, gaps)?)
             }
         };
         let asked = attempt.gmres(tolerance, patience);
         let in_gaps = gap_space::solve(
-            (tangent, preconditioner),
-            (rows, count),
+            tangent,
+            preconditioner,
+            rows,
             placed.as_ref(),
             u,
-            (attempt.precision, asked),
+            attempt.precision,
+            asked,
         );
         let (y, report) = in_gaps.unwrap_or_else(|| {
             let mut y = vec![0.0; rhs.len()];

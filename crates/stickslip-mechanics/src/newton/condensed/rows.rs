@@ -16,6 +16,15 @@ pub(super) struct Rows {
     changes: Vec<f64>,
 }
 
+/// Gaps and slips of contact points, row by row.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct GapRows<'a> {
+    /// By point.
+    pub rows: &'a [Rows],
+    /// Of all points.
+    pub count: usize,
+}
+
 /// `S` of a point, row by row: `C = S B`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Tied {

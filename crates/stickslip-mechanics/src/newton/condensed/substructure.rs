@@ -79,15 +79,25 @@ impl Floating {
 /// again: more of them than needed do no harm.
 const SOFT: f64 = 1e-6;
 
+/// What holds motions of a part that nothing else does.
+#[derive(Clone, Copy)]
+pub struct ArtificialSprings<'a> {
+    /// The position of a point, `None` for the hidden points of rigid bodies.
+    pub places: &'a (dyn Fn(usize) -> Option<Vec3> + Sync),
+    /// A stiffness for springs where there is no other `[N/m]`.
+    pub typical: f64,
+}
+
 impl Substructure {
-    /// Factors a body. `place` gives the position of a point, `None` for the hidden points of rigid bodies; `typical` is a stiffness for
-    /// springs where there is no other `[N/m]`.
+    /// Factors a body.
     ///
     /// # Errors
     /// Those of the factorisation: the interior is singular if the kept points do not hold it.
     pub fn new(
-        (identity, ordered, matrix): (Identity, &Arc<dyn Ordered>, &dyn Matrix),
-        (place, typical): (&dyn Fn(usize) -> Option<Vec3>, f64),
+        identity: Identity,
+        ordered: &Arc<dyn Ordered>,
+        matrix: &dyn Matrix,
+        springs: ArtificialSprings,
         workspace: &Workspace,
     ) -> Result<Substructure, LinearError> {
         let started = Instant::now();
@@ -95,11 +105,11 @@ impl Substructure {
         let factor = started.elapsed().as_secs_f64();
         let started = Instant::now();
         let root = ordered.root();
-        let floating = free_motions(root, matrix.block_size(), &schur, place, typical)?;
-        let held = floating
+        let floating = free_motions(root, matrix.block_size(), &schur, springs)?;
+        let (modes, sigma) = floating
             .as_ref()
             .map_or((&[][..], 0.0), |(modes, sigma)| (&modes[..], *sigma));
-        let compliance = schur.invert(root.len(), held, workspace);
+        let compliance = schur.invert(root.len(), modes, sigma, workspace);
         let compliance = compliance.map_err(|e| match e {
             LinearError::NotPositive { dof } => LinearError::NotPositive {
                 dof: ordered.root().get(dof).map_or(0, |&d| d as usize),
@@ -178,9 +188,12 @@ fn free_motions(
     root: &[u32],
     dim: usize,
     stiffness: &Schur,
-    place: &dyn Fn(usize) -> Option<Vec3>,
-    typical: f64,
+    springs: ArtificialSprings,
 ) -> Result<Option<FreeMotions>, LinearError> {
+    let ArtificialSprings {
+        places: place,
+        typical,
+    } = springs;
     let n = root.len();
     if n == 0 {
         return Ok(None);

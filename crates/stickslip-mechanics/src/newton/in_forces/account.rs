@@ -80,7 +80,7 @@ impl Account {
     }
 
     /// Takes note of the last two of a row of problems, which settled or not. One alone shows nothing.
-    pub fn row(&mut self, settled: bool, (before, last): (&[Found], &[Found])) {
+    pub fn row(&mut self, settled: bool, before: &[Found], last: &[Found]) {
         if settled || before.is_empty() {
             self.end = End::Settled;
             return;
@@ -216,7 +216,7 @@ mod tests {
         let before: Vec<Found> = vec![((0, 1), [2.0, 0.0, 0.0]), ((0, 2), [1.0, 0.0, 0.0])];
         let last: Vec<Found> = vec![((0, 1), [2.0, 0.0, 0.0]), ((0, 2), [1.0, 0.5, 0.0])];
         let mut account = Account::default();
-        account.row(false, (&before, &last));
+        account.row(false, &before, &last);
         account.step(1.0);
         account.step(0.1);
         let said = account.otherwise(&failure(), place);
@@ -236,7 +236,7 @@ mod tests {
     #[test]
     fn what_newtons_method_says_is_repeated_where_the_forces_have_settled() {
         let mut account = Account::default();
-        account.row(true, (&[], &[]));
+        account.row(true, &[], &[]);
         let said = account.otherwise(&failure(), place);
         assert!(said.message.contains("by first guess"));
         assert!(said.message.contains("no equilibrium in 30 iterations"));

@@ -41,8 +41,10 @@ impl Linear<'_, '_, '_> {
                 linear_tolerance: self.tolerance,
                 ..self.attempt.settings
             };
-            let effort = (&settings, &mut *self.attempt.statistics);
-            let solved = (system.bulk).solve(&self.held, &free, self.tolerance, &mut du, effort);
+            let counts = &mut *self.attempt.statistics;
+            let held = &self.held;
+            let solved =
+                (system.bulk).solve(held, &free, self.tolerance, &mut du, &settings, counts);
             match solved {
                 Err(failure)
                     if failure.cause == Cause::LinearSolver && self.tolerance < coarsest =>

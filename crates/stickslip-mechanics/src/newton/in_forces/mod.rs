@@ -77,7 +77,7 @@ fn settle(
         if done {
             break;
         }
-        let Some(next) = pass.solve((points, &last), columns, &mut relaxation, account)? else {
+        let Some(next) = pass.solve(points, &last, columns, &mut relaxation, account)? else {
             return Ok(false);
         };
         // Without a problem before nothing is settled, even where nothing touches: laws that are hardly touched say less than they will where bodies have come.
@@ -88,7 +88,7 @@ fn settle(
             break;
         }
     }
-    account.row(done, (&before, &last));
+    account.row(done, &before, &last);
     Ok(true)
 }
 

@@ -68,7 +68,8 @@ impl<'a, 'b, 's> Pass<'a, 'b, 's> {
     /// One friction problem, and the step to its solution: the forces of the unknowns. `None` where there is no problem, or it is too large.
     pub fn solve(
         self,
-        (Points { restless, loose }, last): (&Points, &[Found]),
+        Points { restless, loose }: &Points,
+        last: &[Found],
         columns: &mut Columns,
         relaxation: &mut Relaxation,
         account: &mut Account,

@@ -147,15 +147,14 @@ impl Panel<'_> {
         self.axes(area, &frame, canvas);
         let unit = behind(page.units.of_field(&field));
         let place = [self.at[0] + area[0] + 1.2 * em, self.at[1]];
-        legend::bar(
-            (&field, &unit),
-            &colours,
-            &values,
-            place,
-            [self.bar - 1.2 * em, area[1].max(12.0 * em)],
-            em,
-            canvas,
-        );
+        let shown = legend::Shown {
+            field: &field,
+            unit: &unit,
+            colours: &colours,
+            values: &values,
+        };
+        let size = [self.bar - 1.2 * em, area[1].max(12.0 * em)];
+        legend::bar(&shown, place, size, em, canvas);
         if arrows {
             self.arrows(area, &frame, canvas);
         }

@@ -124,14 +124,14 @@ fn lines(
     file: &Path,
 ) -> Result<(), Error> {
     let frames = files::chosen(results, wanted.when)?;
-    let lines = over::table(results, (surface, field, wanted.zoom), &frames)?;
+    let lines = over::table(results, surface, field, wanted.zoom, &frames)?;
     if is_table(file) {
         return csv::write(file, &lines);
     }
     let mut canvas = files::canvas(file, wanted.size)?;
     let columns = &lines.names[1..];
-    let source = (&lines, surface);
-    history::draw(results, source, columns, "S", wanted.size, canvas.as_mut())?;
+    let (size, drawn_on) = (wanted.size, canvas.as_mut());
+    history::draw(results, &lines, surface, columns, "S", size, drawn_on)?;
     write_atomically(file, &canvas.finish())
 }
 

@@ -21,7 +21,9 @@ const MARGIN: f64 = 0.1;
 /// [`Error::Io`] where the interface is no line, has no such field, or nothing is to be seen.
 pub fn table(
     results: &Results,
-    (interface, field, zoom): (&str, &str, Zoom),
+    interface: &str,
+    field: &str,
+    zoom: Zoom,
     frames: &[usize],
 ) -> Result<Table, Error> {
     let wrong = |message: String| fault(&results.directory, message);

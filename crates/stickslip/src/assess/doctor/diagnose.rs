@@ -190,7 +190,7 @@ fn contact_rows(view: &View, t: f64) -> Vec<Row> {
         for (i, status) in look::statuses(interface, history).into_iter().enumerate() {
             if status != Status::Open {
                 let normal = look::evidence(interface, i).normal;
-                rows(interface, &mut opposite, (i, normal, status), &mut out);
+                rows(interface, &mut opposite, i, normal, status, &mut out);
             }
         }
     }

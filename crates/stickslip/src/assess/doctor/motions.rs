@@ -92,7 +92,9 @@ pub(super) fn floating(view: &View, t: f64, rows: &[Row]) -> Vec<FloatingBody> {
 pub(super) fn rows(
     interface: &InterfaceDefinition,
     opposite: &mut Opposite,
-    (i, normal, status): (usize, Vec3, Status),
+    i: usize,
+    normal: Vec3,
+    status: Status,
     out: &mut Vec<Row>,
 ) {
     let dim = interface.dofs.dim;

@@ -69,7 +69,7 @@ impl Watch {
     }
 
     /// Looks at the last accepted state, of which `r` are the forces.
-    pub fn note(&mut self, interface: ContactView, r: &Resultant, (u, t): (&[f64], f64)) {
+    pub fn note(&mut self, interface: ContactView, r: &Resultant, u: &[f64], t: f64) {
         let force = r.carried;
         if r.peak > (1.0 + LARGER) * self.peak.value {
             self.peak = Peak {

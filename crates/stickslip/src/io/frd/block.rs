@@ -64,7 +64,8 @@ impl Block {
         &self,
         layout: &Layout,
         moment: &Moment,
-        (block, output): (usize, usize),
+        block: usize,
+        output: usize,
         out: &mut Vec<u8>,
     ) {
         let flag = match layout.encoding {

@@ -84,8 +84,8 @@ impl Results {
         let mut bytes = Vec::new();
         for block in blocks {
             tally.blocks += 1;
-            let numbers = (tally.blocks, tally.outputs);
-            block.write(&self.layout, moment, numbers, &mut bytes);
+            let (number, output) = (tally.blocks, tally.outputs);
+            block.write(&self.layout, moment, number, output, &mut bytes);
         }
         let grown = self.length + bytes.len() as u64;
         bytes.extend(END);

@@ -34,7 +34,8 @@ impl Layout {
     pub fn new(
         mesh: &Mesh,
         title: &str,
-        (bodies, owners): (&[&str], &[usize]),
+        bodies: &[&str],
+        owners: &[usize],
         encoding: Encoding,
     ) -> Layout {
         let mut used = vec![false; mesh.points.len()];

@@ -10,7 +10,6 @@ use super::mirrors::{self, Held};
 use super::schedules::Timeline;
 use super::sets::Sets;
 use super::surfaces::{Numbering, Surfaces};
-use crate::body::Space;
 use crate::contact::enforcement::Multipliers;
 use crate::contact::interface::{
     Above, Ground, Hollows, Initial, InterfaceDefinition, Primary, Start,
@@ -23,8 +22,7 @@ use crate::contact::surface::{ContactPoint, connect, skin, triangulate};
 use crate::contact::walls::Walls;
 use crate::error::{Diagnostic, Error};
 use crate::math::{Vec3, norm, scale, sub};
-use crate::mesh::{FacetRef, Mesh};
-use crate::model::Body;
+use crate::mesh::FacetRef;
 use crate::system::{Dofs, Schedule};
 
 /// How far a point may hang over an outer edge of the primary, relative to the facet. Where edges of both bodies coincide, strains move points over the edge: a tolerance below the strain
@@ -35,22 +33,17 @@ const EDGE_TOLERANCE: f64 = 5e-3;
 pub(super) fn build(
     problem: &Problem,
     sets: &Sets,
-    (mesh, space): (&Mesh, Space),
-    bodies: &[Body],
+    surfaces: &Surfaces,
     timeline: &Timeline,
-    (held, held_nodes): (&Held, &HeldNodes),
+    held: &Held,
+    held_nodes: &HeldNodes,
 ) -> Result<Vec<InterfaceDefinition>, Error> {
-    let surfaces = Surfaces {
-        mesh,
-        space,
-        bodies,
-    };
     let mut out = Vec::new();
     for (name, table) in &problem.interface {
         let make = Make {
             problem,
             sets,
-            surfaces: &surfaces,
+            surfaces,
             table,
             held,
             held_nodes,
@@ -59,8 +52,14 @@ pub(super) fn build(
         let both = table.discretisation().as_dyn().two_sided()
             && !problem.obstacle.contains_key(&table.primary);
         let key = format!("interface.{name}");
-        let secondary = (table.secondary.as_str(), format!("{key}.secondary"));
-        let primary = (table.primary.as_str(), format!("{key}.primary"));
+        let secondary = Side {
+            name: &table.secondary,
+            key: format!("{key}.secondary"),
+        };
+        let primary = Side {
+            name: &table.primary,
+            key: format!("{key}.primary"),
+        };
         if both {
             out.push(make.interface(name.clone(), &secondary, &primary, 0.5)?);
             let mut reverse =
@@ -95,6 +94,12 @@ fn reverse(belt: &mut [[f64; 4]]) {
     }
 }
 
+/// A side of an interface: a surface, and the key that names it.
+struct Side<'a> {
+    name: &'a str,
+    key: String,
+}
+
 /// What an interface is made from.
 struct Make<'a> {
     problem: &'a Problem,
@@ -111,7 +116,7 @@ impl Make<'_> {
     /// of a body that make no facet. Then each stands for its share of all facets of the boundary around it.
     fn secondary_facets(
         &self,
-        (name, key): &(&str, String),
+        Side { name, key }: &Side,
     ) -> Result<(Vec<FacetRef>, Option<Vec<usize>>), Error> {
         let found = self.sets.facets(name, key);
         let by_points = self.table.discretisation().as_dyn().weighted().is_none();
@@ -168,13 +173,13 @@ impl Make<'_> {
     /// What the points may touch, and the points of the mesh that both sides have: the tips of a slit.
     fn opposite(
         &self,
-        primary: &(&str, String),
+        primary: &Side,
         facets: &[FacetRef],
         numbering: &mut Numbering,
     ) -> Result<(Primary, Vec<usize>), Error> {
         let (surfaces, table) = (self.surfaces, self.table);
         let origin = surfaces.origin();
-        Ok(match self.problem.obstacle.get(primary.0) {
+        Ok(match self.problem.obstacle.get(primary.name) {
             Some(obstacle) => {
                 let rigid = Primary::Rigid(
                     obstacle.shape.moved(scale(-1.0, origin)),
@@ -187,9 +192,9 @@ impl Make<'_> {
                 (rigid, Vec::new())
             }
             None => {
-                let theirs = self.sets.facets(primary.0, &primary.1)?;
-                let tips = surfaces.tips(&primary.1, facets, &theirs)?;
-                surfaces.simple(&primary.1, &theirs)?;
+                let theirs = self.sets.facets(primary.name, &primary.key)?;
+                let tips = surfaces.tips(&primary.key, facets, &theirs)?;
+                surfaces.simple(&primary.key, &theirs)?;
                 let mut theirs = surfaces.facets(&theirs, numbering);
                 if table.kinematics.as_dyn().triangles()
                     || table.facets == Some(FacetShape::Triangles)
@@ -229,8 +234,8 @@ impl Make<'_> {
             }
             None => {
                 let obstacle = matches!(opposite, Primary::Rigid(..));
-                let given = (facets, tips);
-                let points = surfaces.points(given, (modulus, obstacle, yields(table)), numbering);
+                let yields = yields(table);
+                let points = surfaces.points(facets, tips, modulus, obstacle, yields, numbering);
                 (points, None)
             }
         };
@@ -287,14 +292,14 @@ impl Make<'_> {
     fn interface(
         &self,
         name: String,
-        secondary: &(&str, String),
-        primary: &(&str, String),
+        secondary: &Side,
+        primary: &Side,
         share: f64,
     ) -> Result<InterfaceDefinition, Error> {
         let (surfaces, table) = (self.surfaces, self.table);
         let (facets, only) = self.secondary_facets(secondary)?;
         if only.is_none() {
-            surfaces.simple(&secondary.1, &facets)?;
+            surfaces.simple(&secondary.key, &facets)?;
         }
         let mut numbering = Numbering::default();
         let origin = surfaces.origin();
@@ -304,11 +309,11 @@ impl Make<'_> {
             self.points(&facets, &opposite, &tips, only.as_deref(), &mut numbering);
         let points = match mortar {
             Some(_) => points,
-            None => (self.held_nodes).once(points, (&numbering.nodes, primary_nodes)),
+            None => (self.held_nodes).once(points, &numbering.nodes, primary_nodes),
         };
         if points.is_empty() {
             return Err(problem_error(vec![Diagnostic::new(
-                secondary.1.clone(),
+                secondary.key.clone(),
                 "the surface is empty",
             )]));
         }
@@ -332,7 +337,7 @@ impl Make<'_> {
             x: &reference,
             dim: surfaces.space.dim(),
         };
-        let hollows = self.hollows(&opposite, above, &primary.1)?;
+        let hollows = self.hollows(&opposite, above, &primary.key)?;
         let mut interface = InterfaceDefinition {
             name,
             dofs: Dofs {
@@ -361,7 +366,7 @@ impl Make<'_> {
             frames: Arc::default(),
             turns: false,
             edge_tolerance: EDGE_TOLERANCE,
-            initial: self.initial(&secondary.1)?,
+            initial: self.initial(&secondary.key)?,
             relief: Vec::new(),
         };
         if let Some(angle) = table.discretisation().as_dyn().weighted() {

@@ -135,12 +135,12 @@ impl<'a> HeldNodes<'a> {
         let mut first = BTreeMap::<(usize, usize), (usize, usize)>::new();
         let apart = apart.iter().filter(|pair| met.contains(&pair[0].1));
         for pair in apart.chain(&together).filter(|pair| both(&own, pair)) {
-            let ends = pair.map(|place| root(&first, place));
+            let ends = pair.map(|(node, component)| root(&first, node, component));
             if ends[0] != ends[1] {
                 first.insert(ends[1], ends[0]);
             }
         }
-        let of = |place: &(usize, usize)| (*place, root(&first, *place));
+        let of = |place: &(usize, usize)| (*place, root(&first, place.0, place.1));
         first.keys().map(of).collect()
     }
 
@@ -148,7 +148,8 @@ impl<'a> HeldNodes<'a> {
     pub fn once(
         &self,
         points: Vec<ContactPoint>,
-        (nodes, primary_nodes): (&[usize], usize),
+        nodes: &[usize],
+        primary_nodes: usize,
     ) -> Vec<ContactPoint> {
         let (theirs, own) = nodes.split_at(primary_nodes);
         let repeated = self.repeated(theirs, own);
@@ -206,8 +207,10 @@ impl<'a> HeldNodes<'a> {
 /// Where the chain of nodes that move as others ends.
 fn root(
     first: &BTreeMap<(usize, usize), (usize, usize)>,
-    mut place: (usize, usize),
+    node: usize,
+    component: usize,
 ) -> (usize, usize) {
+    let mut place = (node, component);
     while let Some(&next) = first.get(&place) {
         place = next;
     }

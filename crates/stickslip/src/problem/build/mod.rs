@@ -126,12 +126,8 @@ impl Problem {
             let rotation = &self.body[&part_name].rotation;
             let rigid = self.body[&part_name].rigid.then(|| {
                 let hidden = mesh.points.len() + 2 * links.len();
-                let (link, rigid) = rigid::link(
-                    &elastic,
-                    part.points.clone(),
-                    (hidden, links.len()),
-                    rotation,
-                );
+                let (link, rigid) =
+                    rigid::link(&elastic, part.points.clone(), hidden, links.len(), rotation);
                 links.push(link);
                 rigid
             });
@@ -151,8 +147,7 @@ impl Problem {
         let inside = built.cuts.iter().flat_map(|c| c.near.iter().chain(&c.far));
         let inside: BTreeSet<FacetRef> = inside.copied().collect();
         let timeline = Timeline::new(self);
-        let beside = (inside, referred);
-        let sets = Sets::new(self, (&mesh, &bodies), beside.clone())?;
+        let sets = Sets::new(self, &mesh, &bodies, inside.clone(), referred.clone())?;
         links.extend(references::links(self, &sets, &mesh, space)?);
         let links = Links::new(dofs, links);
         let frames = Arc::new(turning::frames(self, &sets, &bodies, &links));
@@ -163,7 +158,7 @@ impl Problem {
             bodies = warmed.0;
             heat = Some(Heat::new(warmed.1));
         }
-        let sets = Sets::new(self, (&mesh, &bodies), beside)?;
+        let sets = Sets::new(self, &mesh, &bodies, inside, referred)?;
         let rigid = RigidBodies {
             links: &links,
             bodies: &bodies,
@@ -211,21 +206,25 @@ impl Problem {
             &steps,
         );
         references::spread(&mut loads, &followers);
-        let held = (&links, supports.as_slice(), masses.as_slice());
-        references::refuse_massless(&couplings, &references, held, &steps)?;
+        references::refuse_massless(&couplings, &references, &links, &supports, &masses, &steps)?;
         couplings.extend(pretensions::build(
             self,
             &built.cuts,
-            (&mesh, space),
+            &mesh,
+            space,
             &timeline,
         )?);
         let mut held_nodes = held::HeldNodes::new(&links, dofs, &supports, &couplings);
         let couplings = Couplings::new(couplings, space.dim());
         let held = mirrors::Held::new(&links, dofs, &supports, space);
-        let held = (&held, &held_nodes);
-        let mut interfaces = contact::build(self, &sets, (&mesh, space), &bodies, &timeline, held)?;
+        let surfaces = surfaces::Surfaces {
+            mesh: &mesh,
+            space,
+            bodies: &bodies,
+        };
+        let mut interfaces = contact::build(self, &sets, &surfaces, &timeline, &held, &held_nodes)?;
         held_nodes.mark(&mut interfaces);
-        turning::attach((&frames, &corotations), &mut interfaces)?;
+        turning::attach(&frames, &corotations, &mut interfaces)?;
         turning::refuse_ties(&frames, &corotations, &interfaces, &steps)?;
         let heights = relief::apply(self, folder, &mut interfaces)?;
         let initials = initial::build(self, &sets, &mesh, &rigid, folder)?;

@@ -15,7 +15,8 @@ use crate::system::Schedule;
 pub(super) fn build(
     problem: &Problem,
     cuts: &[BuiltCut],
-    (mesh, space): (&Mesh, Space),
+    mesh: &Mesh,
+    space: Space,
     timeline: &Timeline,
 ) -> Result<Vec<Coupling>, Error> {
     let mut all = Vec::new();

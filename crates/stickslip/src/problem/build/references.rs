@@ -458,7 +458,9 @@ pub(super) fn spread(loads: &mut [Load], followers: &[Follower]) {
 pub(super) fn refuse_massless(
     couplings: &[Coupling],
     references: &[Reference],
-    (links, supports, masses): (&Links, &[Support], &[(usize, f64)]),
+    links: &Links,
+    supports: &[Support],
+    masses: &[(usize, f64)],
     steps: &[Step],
 ) -> Result<(), Error> {
     let dofs = links.dofs();

@@ -19,7 +19,8 @@ const APART: f64 = 1e-6;
 pub(super) fn link(
     elastic: &Elastic,
     points: std::ops::Range<usize>,
-    (hidden, index): (usize, usize),
+    hidden: usize,
+    index: usize,
     rotation: &BodyRotation,
 ) -> (Link, Rigid) {
     let moments = elastic.mass_moments();

@@ -29,8 +29,10 @@ impl<'a> Sets<'a> {
     /// The sets of a problem, and its reference points by their first hidden points; `inside` are facets of cuts.
     pub fn new(
         problem: &Problem,
-        (mesh, bodies): (&'a Mesh, &'a [Body]),
-        (inside, references): (BTreeSet<FacetRef>, BTreeMap<String, usize>),
+        mesh: &'a Mesh,
+        bodies: &'a [Body],
+        inside: BTreeSet<FacetRef>,
+        references: BTreeMap<String, usize>,
     ) -> Result<Self, Error> {
         let mut sets = Sets {
             references,

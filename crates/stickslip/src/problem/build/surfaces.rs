@@ -167,8 +167,11 @@ impl Surfaces<'_> {
     /// node on an `obstacle`, and quadrature points on facets.
     pub(super) fn points(
         &self,
-        (facets, without): (&[FacetRef], &[usize]),
-        (primary, obstacle, yields): (f64, bool, bool),
+        facets: &[FacetRef],
+        without: &[usize],
+        primary: f64,
+        obstacle: bool,
+        yields: bool,
         numbering: &mut Numbering,
     ) -> Vec<ContactPoint> {
         let (curved, plain): (Vec<FacetRef>, Vec<FacetRef>) = facets.iter().partition(|&&f| {
@@ -179,7 +182,7 @@ impl Surfaces<'_> {
                 _ => false,
             }
         });
-        let mut out = self.nodal_points((&plain, without), primary, numbering);
+        let mut out = self.nodal_points(&plain, without, primary, numbering);
         out.extend(match obstacle {
             true => self.mean_points(&curved, primary, numbering),
             false => self.quadrature_points(&curved, primary, yields, numbering),
@@ -248,7 +251,8 @@ impl Surfaces<'_> {
     /// One point a node, but for those that have none: their share of the area goes to their neighbours.
     pub(super) fn nodal_points(
         &self,
-        (facets, without): (&[FacetRef], &[usize]),
+        facets: &[FacetRef],
+        without: &[usize],
         primary: f64,
         numbering: &mut Numbering,
     ) -> Vec<ContactPoint> {

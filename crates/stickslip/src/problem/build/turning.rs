@@ -62,7 +62,8 @@ pub(super) fn corotations(
 
 /// Tells the interfaces that bodies which turn take part in.
 pub(super) fn attach(
-    (frames, corotations): (&Arc<BodyFrames>, &Corotations),
+    frames: &Arc<BodyFrames>,
+    corotations: &Corotations,
     interfaces: &mut [InterfaceDefinition],
 ) -> Result<(), Error> {
     for interface in interfaces {

@@ -24,7 +24,8 @@ impl Solver {
     /// Tries a quasi-static increment on the candidates of bodies that were condensed.
     pub fn attempt_condensed(
         &mut self,
-        (model, frame): (&Model, &Frame),
+        model: &Model,
+        frame: &Frame,
         contact: &mut Contact,
         external: Vec<f64>,
         constraints: Constraints,
@@ -75,7 +76,7 @@ impl Solver {
         }
         let base = vec![0.0; condensation.size()];
         let mut bulk =
-            CondensedBulk::new((condensation, reduced), diagonal, load, base, guess, scale);
+            CondensedBulk::new(condensation, reduced, diagonal, load, base, guess, scale);
         let fixed = constraints.fixed.clone();
         let mut forces = contact.forces(contacts);
         let converged = Iteration {
@@ -164,7 +165,8 @@ impl Solver {
     /// Completes a recovered increment by its forces, and checks that they balance.
     pub fn complete(
         &mut self,
-        (model, frame): (&Model, &Frame),
+        model: &Model,
+        frame: &Frame,
         contact: &Contact,
         after: &ContactMemory,
         found: &Candidates,
@@ -215,7 +217,7 @@ impl Solver {
         }
         accepted.strain = 0.5 * dot(u, &internal);
         accepted.flow = Flow {
-            work: frame.work(&fixed, (u, &forces), &accepted.external),
+            work: frame.work(&fixed, u, &forces, &accepted.external),
             transmitted: frame.transmitted(model, u, &forces, &accepted.external),
             ..Flow::default()
         };

@@ -13,7 +13,7 @@ use crate::model::definition::{Model, Solution};
 use crate::model::frame::Frame;
 use crate::model::scene::Scene;
 use crate::newton::condensed::{
-    Condensation, Cost, Effort, LoadPatterns, Places, Plan, ReducedSystem,
+    ArtificialSprings, Condensation, Cost, Effort, LoadPatterns, Plan, ReducedSystem,
 };
 use crate::newton::{Factors, describe};
 use crate::solve::choice::cost_fits;
@@ -87,7 +87,10 @@ impl Solver {
         let typical = if typical > 0.0 { typical } else { 1.0 };
         let points = &model.mesh.points;
         let places = |p: usize| -> Option<Vec3> { points.get(p).copied() };
-        let springs: (Places, f64) = (&places, typical);
+        let springs = ArtificialSprings {
+            places: &places,
+            typical,
+        };
         let library = Arc::clone(&self.condenser.library);
         let kept = self.condenser.kept.clone().unwrap_or_default();
         let parts = parts(model);
@@ -95,8 +98,8 @@ impl Solver {
             Ok(engine) => engine,
             Err(e) => return self.not_factored(model, frame, contact, e),
         };
-        let with = (&*library, &engine);
-        let plan = Plan::new(self.matrix(which), &parts, (held, &kept), springs, with);
+        let matrix = self.matrix(which);
+        let plan = Plan::new(matrix, &parts, held, &kept, springs, &library, &engine);
         let plan = match plan {
             Ok(plan) => plan,
             Err(e) => return self.not_factored(model, frame, contact, e),
@@ -124,7 +127,7 @@ impl Solver {
             self.seen.tell(&Work::Waiting);
             !self.newton.interrupted()
         };
-        match Condensation::new(plan, (matrix, held), springs, &library, &waits) {
+        match Condensation::new(plan, matrix, held, springs, &library, &waits) {
             Ok((condensation, effort)) => {
                 let passed = started.elapsed().as_secs_f64();
                 self.count(&cost, effort, passed);
@@ -164,7 +167,7 @@ impl Solver {
         }
         let matrix = self.matrix(which).kept();
         let matrix = matrix.expect("only engines that are chosen do without entries");
-        let choice = scene.choose(&cost, (matrix, held));
+        let choice = scene.choose(&cost, matrix, held);
         let forced = self.method == Solution::Condensed;
         let fits = cost_fits(cost.bytes);
         let method = if forced && fits {

@@ -85,7 +85,8 @@ impl Solver {
         let base = condensation.gather(&origin.at);
         let still = vec![0.0; base.len()];
         let mut bulk = CondensedBulk::new(
-            (condensation, reduced),
+            condensation,
+            reduced,
             diagonal,
             load,
             base.clone(),

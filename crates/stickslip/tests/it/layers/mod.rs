@@ -5,6 +5,7 @@
 //! nothing.
 
 mod imports;
+mod parameters;
 mod picture;
 mod rooms;
 mod tokens;
@@ -185,6 +186,23 @@ fn every_module_of_the_library_has_a_layer_and_exists() {
 }
 
 #[test]
+fn parameters_have_names() {
+    let mut wrong = Vec::new();
+    for (_, src) in crates() {
+        for file in Tree::read(&[&src]).files.values() {
+            let text = std::fs::read_to_string(file).expect("a source file");
+            let found = parameters::tuples(&text);
+            wrong.extend(found.iter().map(|f| format!("{}:{f}", file.display())));
+        }
+    }
+    let wrong = wrong.join("\n");
+    assert!(
+        wrong.is_empty(),
+        "give tuples a struct with names:\n{wrong}"
+    );
+}
+
+#[test]
 fn the_picture_of_the_rooms_is_current() {
     let names: Vec<String> = crates().into_keys().collect();
     let mut between = picture::Arrows::new();
@@ -282,6 +300,14 @@ fn comments_strings_and_tests_import_nothing() {
         ("c", "pub fn third() {}"),
     ]);
     assert_eq!(found, ["a -> c:11"]);
+}
+
+#[test]
+fn tuples_among_parameters_are_found_and_what_looks_like_them_is_not() {
+    let text = "fn plain(a: f64, f: &mut (dyn FnMut(&[usize], &[f64]) + Send), [x, y]: [f64; 2]) {}\n\
+        fn pair<T: Fn(f64) -> f64>(t: T, (a, b): (f64, &str)) {}\nfn named(of: &'static (u8, u8)) -> (u8, u8) { of.clone() }\n\
+        fn within(all: Vec<(usize, f64)>, f: impl Fn((u8, u8))) { let c = |(a, b): (u8, u8)| a + b; }\n#[cfg(test)]\nfn test((a, b): (u8, u8)) {}";
+    assert_eq!(parameters::tuples(text), ["2: pair", "3: named"]);
 }
 
 #[test]

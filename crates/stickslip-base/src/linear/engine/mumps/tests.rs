@@ -173,7 +173,7 @@ fn a_matrix_that_nobody_keeps_and_a_compliance_that_is_spread_are_the_same() {
     let (trace, felt) = (schur.trace(n), schur.products(&vectors).unwrap());
     let pieces = schur.pieces(n, |_, _| false);
     let work = Workspace::default();
-    let compliance = schur.invert(n, (modes, 3.0), &work).unwrap();
+    let compliance = schur.invert(n, modes, 3.0, &work).unwrap();
     let all = vectors.concat();
     let moved = |compliance: &Compliance, x: &[f64]| {
         let mut out = vec![0.0; x.len()];
@@ -202,7 +202,7 @@ fn a_matrix_that_nobody_keeps_and_a_compliance_that_is_spread_are_the_same() {
         let (root_0, inner_0) = reduced_and_recovered(&*builtin, 3);
         close(&root, &root_0, 1e-11);
         close(&inner, &inner_0, 1e-11);
-        let far = schur.invert(n, (modes, 3.0), &work).unwrap();
+        let far = schur.invert(n, modes, 3.0, &work).unwrap();
         assert!(!far.is_here() && far.bytes() == 0);
         close(&moved(&far, &all), &moved(&compliance, &all), 1e-11);
         let some = (0..n)
@@ -231,7 +231,7 @@ fn an_inverse_that_does_not_exist_is_refused_where_it_is_spread() {
     let (factor, schur) = factor(engine, &a, (&fixed, &kept)).unwrap();
     let n = factor.ordered().root().len();
     let mode = vec![vec![1.0; n]];
-    let refused = schur.invert(n, (&mode, -1e3), &Workspace::default());
+    let refused = schur.invert(n, &mode, -1e3, &Workspace::default());
     assert_eq!(refused.err(), Some(LinearError::Indefinite));
 }
 

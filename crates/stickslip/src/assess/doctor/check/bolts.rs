@@ -49,7 +49,7 @@ fn owner<'a>(model: &'a Model, cut: &Coupling) -> Option<&'a Body> {
 }
 
 /// What a course comes to within a step: the least and the largest value.
-fn range(course: &Course, (from, to): (f64, f64)) -> [f64; 2] {
+fn range(course: &Course, from: f64, to: f64) -> [f64; 2] {
     let Some(table) = &course.table else {
         return [course.value; 2];
     };
@@ -89,7 +89,7 @@ impl Bolt<'_> {
                 Draw::Shortening(course) => (course, "shortening"),
                 Draw::Hold => return None,
             };
-            let least = range(course, (*from, *to))[0];
+            let least = range(course, *from, *to)[0];
             (least < 0.0).then(|| {
                 self.finding(
                     step,
@@ -112,7 +112,7 @@ impl Bolt<'_> {
         let stiffness = moduli.reduce(f64::min)? * self.pretension.area;
         let steps = self.pretension.steps.iter().enumerate();
         let forces = steps.filter_map(|(step, (from, to, draw))| match draw {
-            Draw::Force(course) => Some((step, range(course, (*from, *to))[1])),
+            Draw::Force(course) => Some((step, range(course, *from, *to)[1])),
             Draw::Shortening(_) | Draw::Hold => None,
         });
         let (step, force) = forces.max_by(|a, b| a.1.total_cmp(&b.1))?;
@@ -133,13 +133,13 @@ impl Bolt<'_> {
 
     /// A step in which the force falls to zero.
     fn let_go(&self) -> Option<Finding> {
-        let largest = |draw: &Draw, span| match draw {
-            Draw::Force(course) | Draw::Shortening(course) => Some(range(course, span)[1]),
+        let largest = |draw: &Draw, from, to| match draw {
+            Draw::Force(course) | Draw::Shortening(course) => Some(range(course, from, to)[1]),
             Draw::Hold => None,
         };
         let mut before = None;
         for (step, (from, to, draw)) in self.pretension.steps.iter().enumerate() {
-            let Some(value) = largest(draw, (*from, *to)) else {
+            let Some(value) = largest(draw, *from, *to) else {
                 continue;
             };
             let table = match draw {

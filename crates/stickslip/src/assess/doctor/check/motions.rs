@@ -44,12 +44,7 @@ pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
                 continue;
             }
             let mut own = Vec::new();
-            rows(
-                interface,
-                &mut opposite,
-                (i, beside.normal, status),
-                &mut own,
-            );
+            rows(interface, &mut opposite, i, beside.normal, status, &mut own);
             if touches {
                 touching.extend(own.clone());
             }

@@ -63,8 +63,8 @@ impl Placed<'_> {
         )
     }
 
-    fn nodes(&self, facet: &(ElementKind, Vec<usize>)) -> Vec<Vec3> {
-        facet.1.iter().map(|&p| self.x(p)).collect()
+    fn nodes(&self, points: &[usize]) -> Vec<Vec3> {
+        points.iter().map(|&p| self.x(p)).collect()
     }
 
     fn tree(&self, boundary: &Boundary) -> Tree {
@@ -114,7 +114,7 @@ impl Placed<'_> {
                 ElementKind::Tri3 | ElementKind::Tri6 => [1.0 / 3.0; 2],
                 _ => [0.0; 2],
             };
-            let p = evaluate(f.0, &self.nodes(f), middle);
+            let p = evaluate(f.0, &self.nodes(&f.1), middle);
             (p.x, Some(p.normal))
         });
         nodes.chain(middles).collect()
@@ -126,7 +126,7 @@ impl Placed<'_> {
         let mut best: Option<Near> = None;
         for &f in &found {
             let facet = &body.facets[f];
-            let nodes = self.nodes(facet);
+            let nodes = self.nodes(&facet.1);
             let patch = Patch::new(facet.0, &nodes);
             let Some(p) = patch.project(x) else {
                 continue;
@@ -151,7 +151,7 @@ impl Placed<'_> {
     pub(super) fn facing(&self, one: &Boundary, other: &Boundary) -> Option<Vec3> {
         let (low, high) = self.bounds(other);
         let longest = other.facets.iter().map(|f| {
-            let x = self.nodes(f);
+            let x = self.nodes(&f.1);
             distance(x[0], x[1])
         });
         let reach = NEAR * longest.fold(0.0, f64::max);
@@ -175,7 +175,7 @@ impl Placed<'_> {
     /// The deepest of the points of a body in an obstacle.
     pub(super) fn behind(&self, body: &Boundary, interface: &InterfaceDefinition) -> Overlap {
         let facet = body.facets.first().map_or(0.0, |f| {
-            let x = self.nodes(f);
+            let x = self.nodes(&f.1);
             distance(x[0], x[1])
         });
         let all = body.points.iter().filter_map(|&p| {
@@ -199,7 +199,7 @@ impl Placed<'_> {
         let middles = self.places(body).into_iter();
         let mut middles = middles.filter_map(|(x, n)| Some((x, n?))).zip(&body.facets);
         let found = middles.find(|((x, normal), facet)| {
-            let nodes = self.nodes(facet);
+            let nodes = self.nodes(&facet.1);
             let size = distance(nodes[0], nodes[1]);
             let foot = gap(interface, *x, self.t);
             foot.is_some_and(|(gap, n)| gap.abs() <= NEAR * size && dot(n, *normal) < FACING)
