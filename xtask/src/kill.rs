@@ -191,7 +191,7 @@ pub fn run(words: &[String]) -> Result<(), String> {
             outcome.runs += 1;
             let out = folder.join(format!("{:04}", outcome.runs));
             let left = (share - outcome.kills).min(MOST);
-            let (killed, last) = torment(&binary, case, &out, (left, seconds), &mut random)?;
+            let (killed, last) = torment(&binary, case, &out, left, seconds, &mut random)?;
             outcome.kills += killed;
             let found = contents(&out)?;
             let mut lines = differences(&wanted, &found);
@@ -314,7 +314,8 @@ fn torment(
     binary: &Path,
     case: &Case,
     out: &Path,
-    (kills, seconds): (usize, f64),
+    kills: usize,
+    seconds: f64,
     random: &mut Random,
 ) -> Result<(usize, Option<i32>), String> {
     let mut killed = 0;

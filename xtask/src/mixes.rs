@@ -43,7 +43,7 @@ pub fn sweep(words: &[String]) -> Result<(), String> {
     for number in wish.from..wish.from + wish.count {
         let mix = mix::problem(wish.seed, number);
         let place = folder.join(format!("{}-{number:03}", wish.seed));
-        let entry = one(&binary, &mix, (wish.seed, number), &place)?;
+        let entry = one(&binary, &mix, wish.seed, number, &place)?;
         entry.print();
         let kept = wish.keep.is_some()
             || entry.outcome.verdict != Verdict::Sound
@@ -70,12 +70,7 @@ pub fn sweep(words: &[String]) -> Result<(), String> {
 }
 
 /// Runs a mix and what must agree with it.
-fn one(
-    binary: &Path,
-    mix: &Mix,
-    (seed, number): (u64, u64),
-    place: &Path,
-) -> Result<Entry, String> {
+fn one(binary: &Path, mix: &Mix, seed: u64, number: u64, place: &Path) -> Result<Entry, String> {
     let file = place.join("case.toml");
     let title = format!("Mix {number} of series {seed}");
     fs::create_dir_all(place)
@@ -88,7 +83,7 @@ fn one(
         for relation in &mix.relations {
             names.push(relation.name);
             let passed = outcome.exit == Some(0);
-            let second = again(binary, mix, relation, (&out, passed), place)?;
+            let second = again(binary, mix, relation, &out, passed, place)?;
             outcome.seconds += second.seconds;
             outcome.lines.extend(second.lines);
             if let Some(verdict) = second.verdict.filter(|_| !outcome.verdict.broken()) {
@@ -117,7 +112,8 @@ fn again(
     binary: &Path,
     mix: &Mix,
     relation: &Relation,
-    (first, passed): (&Path, bool),
+    first: &Path,
+    passed: bool,
     place: &Path,
 ) -> Result<Second, String> {
     let name = relation.name;

@@ -214,7 +214,9 @@ fn keys() -> Result<Vec<(PathBuf, String)>, String> {
         let mut found = Vec::new();
         numbers(
             &toml::Value::Table(table),
-            (String::new(), String::new(), 0),
+            String::new(),
+            String::new(),
+            0,
             &mut found,
         );
         for (path, kind) in found {
@@ -229,7 +231,9 @@ fn keys() -> Result<Vec<(PathBuf, String)>, String> {
 /// The paths of all numbers below a value, with the same without names and places in lists.
 fn numbers(
     value: &toml::Value,
-    (path, kind, depth): (String, String, usize),
+    path: String,
+    kind: String,
+    depth: usize,
     out: &mut Vec<(String, String)>,
 ) {
     match value {
@@ -247,13 +251,18 @@ fn numbers(
                     true => format!("{kind}*."),
                     false => format!("{kind}{name}."),
                 };
-                numbers(value, (below, kind, depth + 1), out);
+                numbers(value, below, kind, depth + 1, out);
             }
         }
         toml::Value::Array(list) => {
             for (i, value) in list.iter().enumerate() {
-                let place = (format!("{path}.{i}"), format!("{kind}#."), depth + 1);
-                numbers(value, place, out);
+                numbers(
+                    value,
+                    format!("{path}.{i}"),
+                    format!("{kind}#."),
+                    depth + 1,
+                    out,
+                );
             }
         }
         _ => {}

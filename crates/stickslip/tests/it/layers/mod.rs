@@ -304,7 +304,7 @@ fn comments_strings_and_tests_import_nothing() {
 
 #[test]
 fn tuples_among_parameters_are_found_and_what_looks_like_them_is_not() {
-    let text = "fn plain(a: f64, f: &mut (dyn FnMut(&[usize], &[f64]) + Send), [x, y]: [f64; 2]) {}\n\
+    let text = "fn plain(a: f64, f: &mut (dyn FnMut(&[usize], &[f64]) + Send), [x, y]: [f64; 2], b: &[Block<f32, 1>]) {}\n\
         fn pair<T: Fn(f64) -> f64>(t: T, (a, b): (f64, &str)) {}\nfn named(of: &'static (u8, u8)) -> (u8, u8) { of.clone() }\n\
         fn within(all: Vec<(usize, f64)>, f: impl Fn((u8, u8))) { let c = |(a, b): (u8, u8)| a + b; }\n#[cfg(test)]\nfn test((a, b): (u8, u8)) {}";
     assert_eq!(parameters::tuples(text), ["2: pair", "3: named"]);

@@ -30,11 +30,19 @@ fn has_tuple(behind: &[Token]) -> bool {
 /// Whether a type is a tuple, or a reference to one.
 fn is_tuple(of: &[Token]) -> bool {
     let marks = |t: &&Token| ["&", "mut"].contains(&t.text.as_str());
-    let start = of.iter().take_while(marks).count();
-    let list = inside(&of[start..]);
+    let of = &of[of.iter().take_while(marks).count()..];
+    let list = match of.first().is_some_and(|t| t.text == "(") {
+        true => inside(of),
+        false => &[],
+    };
     let mut depth = 0;
-    list.iter().any(|token| {
+    list.iter().enumerate().any(|(i, token)| {
         depth += step(token);
+        depth += match token.text.as_str() {
+            "<" => 1,
+            ">" if list[i - 1].text != "-" => -1,
+            _ => 0,
+        };
         depth == 0 && token.text == ","
     })
 }
