@@ -40,8 +40,9 @@ pub(in crate::contact) struct Geometry {
     pub faces: FaceSearch,
     /// Nodes of the faces of a mortar without a multiplier.
     pub merged: MergedNodes,
-    /// Integrals over the faces of a mortar.
+    /// Integrals over the faces of a mortar, and the coordinates at which they were found; empty where normals were those of another state.
     pub integrals: Vec<FaceIntegral>,
+    pub integrated: Vec<Vec3>,
 }
 
 /// Nodes of faces without a multiplier, by face, and the coordinates for which they were found.

@@ -8,6 +8,7 @@ use super::cone::judge_friction;
 use super::definition::{InterfaceDefinition, Primary};
 use super::energies::stored_energy;
 use super::evaluation::{Evaluation, Evaluations};
+use super::faces::integrate_accepted;
 use super::history::{History, PointHistory};
 use super::input::InterfaceInput;
 use super::on_ground::wear_ground;
@@ -120,6 +121,7 @@ pub fn commit(interface: &mut InterfaceForce, stage: &Stage) -> History {
         state: &next,
     });
     next.energy.stored = stored;
+    integrate_accepted(input, &mut cache.geometry, stage);
     if increment.resolved {
         // Along its path contact gave what it no longer stores, and took what friction has turned into heat.
         next.energy.path += work - (state.energy.stored - stored - dissipated);

@@ -13,12 +13,13 @@ use crate::contact::mortar::{
 };
 use crate::contact::symmetry::Across;
 use crate::math::{Mat3, Vec3, identity};
+use crate::system::Stage;
 
 /// Faces integrated by one task.
 const CHUNK: usize = 8;
 
 /// Integrates over all faces at the coordinates of the evaluation, along normals that have turned as the surface has, at the last accepted state where it
-/// `holds_turns`; over the reference configuration, once, where sliding is small.
+/// `holds_turns`; at that state where [`holds_integrals`] says so; over the reference configuration, once, where sliding is small.
 pub(super) fn integrate_faces(interface: InterfaceInput, geometry: &mut Geometry, wants: Wants) {
     let (Some(mortar), Primary::Facets(facets)) = (&interface.mortar, &interface.primary) else {
         return;
@@ -33,23 +34,45 @@ pub(super) fn integrate_faces(interface: InterfaceInput, geometry: &mut Geometry
         faces,
         merged,
         integrals,
+        integrated,
         ..
     } = geometry;
     match frozen {
-        true => merge(interface, faces, merged, &interface.reference),
+        true => merge(interface, faces, merged, &interface.reference, &[]),
         // An attempt asks at one state for all of its iterations. After a restart those of the last attempt are known.
-        false if !before.is_empty() => merge(interface, faces, merged, before),
+        false if !before.is_empty() => {
+            let there = *integrated == *before;
+            let found = if there { integrals.as_slice() } else { &[] };
+            merge(interface, faces, merged, before, found);
+        }
         false => {}
     }
-    let turned = if wants.holds_turns { &*before } else { &*x };
     let reference = &interface.reference;
-    let (x, before, turn): (&[Vec3], &[Vec3], Mat3) = match frozen {
-        true => (reference, &[], identity()),
+    let held = holds_integrals(&interface) && !before.is_empty();
+    let x: &[Vec3] = match (frozen, held) {
+        (true, _) => reference,
+        (_, true) => before,
+        _ => x,
+    };
+    if held && integrated.as_slice() == x {
+        return;
+    }
+    let turned = if wants.holds_turns { &**before } else { x };
+    let (before, turn): (&[Vec3], Mat3) = match frozen {
+        true => (&[], identity()),
         false => {
             let turn = of_points(own_nodes(&interface), turned, reference, interface.dofs.dim);
-            (x, before, across(&interface).turn(turn))
+            (before, across(&interface).turn(turn))
         }
     };
+    // A face takes part as long as one of its points does. What is frozen must serve for ever.
+    let excluded = &interface.conditions.excluded;
+    let all = frozen || wants.everywhere || excluded.is_empty();
+    let included = |points: &[usize]| all || points.iter().any(|&p| !excluded[p]);
+    integrated.clear();
+    if all && !frozen && std::ptr::eq(turned, x) {
+        integrated.extend_from_slice(x);
+    }
     faces.renew(&mortar.faces, facets, x);
     let mirrors = mirrors(&interface);
     let sides = Sides {
@@ -61,11 +84,6 @@ pub(super) fn integrate_faces(interface: InterfaceInput, geometry: &mut Geometry
         walls: interface.walls.of(facets, reference),
         mirrors: &mirrors,
         compliant: !interface.laws.needs_normal_stiffness(),
-    };
-    // A face takes part as long as one of its points does. What is frozen must serve for ever.
-    let excluded = &interface.conditions.excluded;
-    let included = |points: &[usize]| {
-        frozen || wants.everywhere || excluded.is_empty() || points.iter().any(|&p| !excluded[p])
     };
     integrals.resize_with(mortar.faces.len(), FaceIntegral::default);
     merged.nodes.resize(mortar.faces.len(), Merged::default());
@@ -91,20 +109,53 @@ pub(super) fn integrate_faces(interface: InterfaceInput, geometry: &mut Geometry
     }
 }
 
+/// Whether integrals are those of the accepted state in all iterations of an attempt, and turn with the surface from there: of tied surfaces, whose faces stay where they are on
+/// each other. Integrals that were found anew in each iteration would follow a strain of rounding size wherever edges of both sides coincide, as pieces
+/// between them come and go.
+pub(super) fn holds_integrals(interface: &InterfaceDefinition) -> bool {
+    interface.laws.tied && interface.mortar.is_some() && !interface.kinematics.as_dyn().frozen()
+}
+
+/// Integrates at an accepted state where that serves for the next attempt.
+pub(super) fn integrate_accepted(
+    interface: InterfaceInput,
+    geometry: &mut Geometry,
+    stage: &Stage,
+) {
+    if holds_integrals(&interface) {
+        interface.coordinates_into(interface.frames_at(stage), &stage.at.u, &mut geometry.x);
+        geometry.before.clone_from(&geometry.x);
+        integrate_faces(interface, geometry, Wants::default());
+    }
+}
+
 /// Finds the nodes without a multiplier, at coordinates `at`: those of the accepted state that an attempt starts from, as what is covered must not change
-/// from iteration to iteration.
-fn merge(interface: InterfaceInput, faces: &mut FaceSearch, known: &mut MergedNodes, at: &[Vec3]) {
+/// from iteration to iteration. What faces have been `found` to integrate there may be empty.
+fn merge(
+    interface: InterfaceInput,
+    faces: &mut FaceSearch,
+    known: &mut MergedNodes,
+    at: &[Vec3],
+    found: &[FaceIntegral],
+) {
     let (Some(mortar), false) = (&interface.mortar, known.at == at) else {
         return;
     };
-    let covered = covered(&interface, faces, at);
+    let covered = covered(&interface, faces, at, found, &known.nodes);
     known.nodes = merged(&mortar.faces, &covered);
     known.at = at.to_vec();
 }
 
 /// By point of a mortar the part of its area that has the primary opposite, on the face on which that is most. One where pressure follows from the gap, so that no
-/// constraint asks for a force, and where the faces around have no edge of the primary near.
-fn covered(interface: &InterfaceDefinition, search: &mut FaceSearch, at: &[Vec3]) -> Vec<f64> {
+/// constraint asks for a force, and where the faces around have no edge of the primary near. What is `known` of faces `without` none of their
+/// multipliers is not integrated again.
+fn covered(
+    interface: &InterfaceDefinition,
+    search: &mut FaceSearch,
+    at: &[Vec3],
+    known: &[FaceIntegral],
+    without: &[Merged],
+) -> Vec<f64> {
     let mut out = vec![1.0; interface.points.len()];
     let compliant = !interface.laws.needs_normal_stiffness();
     let (Some(mortar), Primary::Facets(facets), false) =
@@ -136,14 +187,22 @@ fn covered(interface: &InterfaceDefinition, search: &mut FaceSearch, at: &[Vec3]
         mirrors: &mirrors,
         compliant,
     };
-    let faces = mortar.faces.par_iter().zip(&search.opposite);
+    // Faces that took no part then have no area.
+    let area_of = |f: usize| {
+        let area = known.get(f)?.area;
+        let all_nodes = without.get(f) == Some(&Merged::default());
+        (all_nodes && sides.walls.is_empty() && area != [0.0; FACE_NODES]).then_some(area)
+    };
+    let faces = mortar.faces.par_iter().zip(&search.opposite).enumerate();
     let found: Vec<Option<[f64; FACE_NODES]>> = faces
         .map_init(
             || (Scratch::default(), FaceIntegral::default()),
-            |(scratch, integral), (face, opposite)| {
+            |(scratch, integral), (f, (face, opposite))| {
                 opposite.iter().any(|&f| ends[f]).then(|| {
-                    integrate(face, Merged::default(), &sides, opposite, scratch, integral);
-                    integral.area
+                    area_of(f).unwrap_or_else(|| {
+                        integrate(face, Merged::default(), &sides, opposite, scratch, integral);
+                        integral.area
+                    })
                 })
             },
         )

@@ -3,6 +3,7 @@
 use super::clamped::clamped_pair;
 use super::definition::Primary;
 use super::evaluation::{Batch, Evaluation};
+use super::faces::holds_integrals;
 use super::finish::finish;
 use super::respond::respond;
 use super::scene::{Met, Scene};
@@ -50,6 +51,7 @@ pub(super) fn evaluate_mortar(i: usize, scene: &Scene, batch: &mut Batch) -> Eva
         reference: &interface.reference,
         origin: norm(interface.origin),
         carried: (!interface.kinematics.as_dyn().frozen()).then(carried),
+        held: holds_integrals(&interface),
         across: point.across,
         never_in_contact: interface.attempt.never_in_contact,
     };

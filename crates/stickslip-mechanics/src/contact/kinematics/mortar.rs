@@ -127,6 +127,8 @@ pub struct MeanPoint<'a> {
     pub origin: f64,
     /// What was; `None` if pairs and normals are those of the reference configuration.
     pub carried: Option<Carried>,
+    /// Sums are those of the last accepted state, and turn with the secondary from there.
+    pub held: bool,
     /// What its normal, slip and turn do not have.
     pub across: Across,
     /// Nothing has been in contact yet: surfaces that just touch must not be in contact or apart by the rounding of the integrals.
@@ -146,23 +148,24 @@ impl MeanPoint<'_> {
         out: &mut Stencil,
     ) {
         let per_area = 1.0 / sums.area;
+        // What was carried before is carried on by the point as it turns, and from there to where the surface is met now.
+        let turns = self.carried.map_or([identity(), identity()], |c| c.turns);
+        let [own, other] = turns.map(|t| self.across.turn(t));
+        let turn = |v: Vec3| if self.held { mat_vec(&own, v) } else { v };
         for ((_, weight), part) in all[first..].iter_mut().zip(parts.iter_mut()) {
             *weight *= per_area;
             if weight.abs() <= NOTHING {
                 *weight = 0.0;
             }
-            part.gradient = scale(per_area / length, part.gradient);
-            part.lever = scale(per_area, part.lever);
+            part.gradient = turn(scale(per_area / length, part.gradient));
+            part.lever = turn(scale(per_area, part.lever));
         }
         let nodes = &all[first..];
         let dim = self.dim;
         out.reset(nodes.len() * dim);
-        let normal = normalize(sums.normal).unwrap_or(sums.normal);
+        let normal = turn(normalize(sums.normal).unwrap_or(sums.normal));
         let frame = tangents(normal, dim);
         let along = frame.map(|e| self.across.within(e));
-        // What was carried before is carried on by the point as it turns, and from there to where the surface is met now.
-        let turns = self.carried.map_or([identity(), identity()], |c| c.turns);
-        let [own, other] = turns.map(|t| self.across.turn(t));
         let normal_before = match self.carried {
             Some(c) if c.normal != [0.0; 3] => c.normal,
             _ => turning::back(&own, normal),
@@ -180,6 +183,8 @@ impl MeanPoint<'_> {
             largest = largest.max(dot(x, x));
             if self.carried.is_none() {
                 gap += dot(part.gradient, sub(x, self.reference[node]));
+            } else if self.held {
+                gap += dot(part.gradient, sub(x, turn(self.before[node])));
             }
             for c in 0..dim {
                 out.rows[0][k * dim + c] = part.gradient[c];
