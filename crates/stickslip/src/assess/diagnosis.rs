@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::doctor::Finding;
+use super::doctor::{Finding, singular_help};
 use super::view::View;
 use crate::contact::interface::{InterfaceDefinition, gaps_at};
 use crate::error::RunError;
@@ -121,10 +121,7 @@ pub(crate) fn explain_singular(view: &View, failure: &StepFailure) -> RunError {
         message: "the system is singular although supports hold every body".to_string(),
         time: view.frame.state.t,
         culprits: place.into_iter().collect(),
-        help: Some(
-            "look for cells that hang on one node or edge, for supports of too few points, and for materials of very different stiffness"
-                .into(),
-        ),
+        help: Some(singular_help(model, failure.dof)),
     }
 }
 

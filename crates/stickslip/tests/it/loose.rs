@@ -534,6 +534,25 @@ supports = ["pin"]
     assert!(summary.increments > 0);
 }
 
+/// Four points of a cell of eight nodes do not see one of its motions.
+#[test]
+fn reduced_integration_that_leaves_a_motion_without_strain_is_named() {
+    let text = r#"
+format = 1
+model.space = "plane-strain"
+body.cell = { generate.rectangle = { from = [0, 0], to = [1, 1], cells = [1, 1], element = "quad8" }, material = "m", formulation = "reduced" }
+material.m.isotropic = { young = 1e9, poisson = 0.3 }
+set.low = { of = "cell", point = [0, 0] }
+set.right = { of = "cell", point = [1, 0] }
+support.low = { set = "low", x = 0, y = 0 }
+support.right = { set = "right", y = 0 }
+load.pull = { set = "cell.top", traction.value = [1e3, 0] }
+step = [{}]
+"#;
+    let (said, _) = refused(text);
+    assert!(said.contains("body cell has reduced integration"), "{said}");
+}
+
 #[test]
 fn what_loads_do_not_drive_and_contact_may_hold_is_not_refused() {
     // No support at all, but the loads balance and contact holds one block against the other.

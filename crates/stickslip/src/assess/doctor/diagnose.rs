@@ -11,11 +11,14 @@ use super::signs::{prescribed_slip, signs, too_large_slip};
 use super::surfaces::Opposite;
 use super::{balance, coupling};
 use crate::assess::view::View;
+use crate::body::Formulation;
 use crate::contact::interface::ContactView;
 use crate::contact::look;
 use crate::contact::response::Status;
 use crate::error::RunError;
 use crate::math::Vec3;
+use crate::model::definition::Model;
+use crate::shape::ElementKind;
 use crate::system::{Cause, Evidence, StepFailure};
 use crate::time::Trial;
 
@@ -229,9 +232,7 @@ fn near_singular(view: &View, failure: &StepFailure) -> Finding {
         Severity::Warning,
         "the system is singular although every body is held",
     )
-    .advise(
-        "look for cells that hang on one node or edge, for supports of too few points, and for materials of very different stiffness",
-    );
+    .advise(singular_help(model, failure.dof));
     if let Some(dof) = failure.dof {
         let (point, component) = model.dofs.locate(dof);
         if point < model.mesh.points.len() {
@@ -240,6 +241,25 @@ fn near_singular(view: &View, failure: &StepFailure) -> Finding {
         }
     }
     finding
+}
+
+/// What to do where the stiffness is singular at a dof though every body is held.
+pub(crate) fn singular_help(model: &Model, dof: Option<usize>) -> String {
+    let point = dof.map(|dof| model.dofs.locate(dof).0);
+    let mut bodies = model.elastic().filter(|body| {
+        let mut kinds =
+            (body.elastic.parts().iter()).map(|part| model.mesh.blocks[part.block].kind);
+        point.is_some_and(|p| body.points.contains(&p))
+            && body.elastic.formulation() == Formulation::Reduced
+            && kinds.any(|kind| matches!(kind, ElementKind::Quad8 | ElementKind::Hex20))
+    });
+    match bodies.next() {
+        Some(body) => format!(
+            "body {} has reduced integration, with which few quadratic cells have motions without strain: `body.{}.formulation = \"standard\"`, or more cells",
+            body.name, body.name
+        ),
+        None => "look for cells that hang on one node or edge, for supports of too few points, and for materials of very different stiffness".to_string(),
+    }
 }
 
 /// A point of the mesh.

@@ -28,7 +28,7 @@ pub use finding::{Finding, Guilty, MOST_GUILTY, Severity, What};
 
 pub(crate) use check::{examine, let_go, longest_way};
 pub(crate) use culprits::write as write_culprits;
-pub(crate) use diagnose::{MORE_MEMORY, diagnose, stopped};
+pub(crate) use diagnose::{MORE_MEMORY, diagnose, singular_help, stopped};
 pub(crate) use places::body as body_at;
 pub(crate) use record::{Counters, mistake, note};
 pub(crate) use surfaces::Opposite;
