@@ -40,8 +40,9 @@ pub(in crate::contact) struct Geometry {
     pub faces: FaceSearch,
     /// Nodes of the faces of a mortar without a multiplier.
     pub merged: MergedNodes,
-    /// Integrals over the faces of a mortar, and the coordinates at which they were found; empty where normals were those of another state.
+    /// Integrals over the faces of a mortar.
     pub integrals: Vec<FaceIntegral>,
+    /// The coordinates at which all faces were integrated; empty where some were excluded, or normals were those of another state.
     pub integrated: Vec<Vec3>,
 }
 

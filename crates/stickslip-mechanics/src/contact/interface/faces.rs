@@ -130,7 +130,7 @@ pub(super) fn integrate_accepted(
 }
 
 /// Finds the nodes without a multiplier, at coordinates `at`: those of the accepted state that an attempt starts from, as what is covered must not change
-/// from iteration to iteration. What faces have been `found` to integrate there may be empty.
+/// from iteration to iteration. `found` has the integrals over all faces at these coordinates, or is empty.
 fn merge(
     interface: InterfaceInput,
     faces: &mut FaceSearch,
@@ -147,14 +147,14 @@ fn merge(
 }
 
 /// By point of a mortar the part of its area that has the primary opposite, on the face on which that is most. One where pressure follows from the gap, so that no
-/// constraint asks for a force, and where the faces around have no edge of the primary near. What is `known` of faces `without` none of their
-/// multipliers is not integrated again.
+/// constraint asks for a force, and where the faces around have no edge of the primary near. A face that was integrated at these coordinates with
+/// a multiplier at each of its nodes is not integrated again: `known` has the integrals, or none, and `merged` the nodes that had no multiplier.
 fn covered(
     interface: &InterfaceDefinition,
     search: &mut FaceSearch,
     at: &[Vec3],
     known: &[FaceIntegral],
-    without: &[Merged],
+    merged: &[Merged],
 ) -> Vec<f64> {
     let mut out = vec![1.0; interface.points.len()];
     let compliant = !interface.laws.needs_normal_stiffness();
@@ -187,10 +187,10 @@ fn covered(
         mirrors: &mirrors,
         compliant,
     };
-    // Faces that took no part then have no area.
+    // A face without area was excluded, or nothing lay opposite: that is found anew.
     let area_of = |f: usize| {
         let area = known.get(f)?.area;
-        let all_nodes = without.get(f) == Some(&Merged::default());
+        let all_nodes = merged.get(f) == Some(&Merged::default());
         (all_nodes && sides.walls.is_empty() && area != [0.0; FACE_NODES]).then_some(area)
     };
     let faces = mortar.faces.par_iter().zip(&search.opposite).enumerate();
