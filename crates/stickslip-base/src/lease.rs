@@ -56,17 +56,13 @@ impl Lease {
 
     /// Asks for it.
     pub fn ask(path: &Path) -> Asked {
-        let mut file = match OpenOptions::new().write(true).create_new(true).open(path) {
+        let token = token();
+        let me = format!("{} {token}", Holder::this());
+        let mut file = match create(path, &me) {
             Ok(file) => file,
             Err(e) if e.kind() == ErrorKind::AlreadyExists => return Asked::Theirs,
             Err(_) => return Asked::Nobodys,
         };
-        let token = token();
-        let me = format!("{} {token}", Holder::this());
-        if say(&mut file, &me, 0).is_err() {
-            let _ = fs::remove_file(path);
-            return Asked::Nobodys;
-        }
         let (over, end) = channel();
         let beat = Builder::new().spawn(move || {
             let mut count = 0;
@@ -96,6 +92,29 @@ impl Drop for Lease {
         if fs::read_to_string(&self.path).is_ok_and(|text| text.contains(&self.token)) {
             let _ = fs::remove_file(&self.path);
         }
+    }
+}
+
+/// Creates a lease with what it says in it. It is written under another name and linked, so that a process that is killed meanwhile leaves no empty lease,
+/// whose holder nobody can know.
+fn create(path: &Path, who: &str) -> io::Result<File> {
+    let new = |path: &Path| {
+        let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;
+        say(&mut file, who, 0).inspect_err(|_| drop(fs::remove_file(path)))?;
+        Ok(file)
+    };
+    if path.exists() {
+        return Err(ErrorKind::AlreadyExists.into());
+    }
+    let written = aside(path);
+    let file = new(&written)?;
+    let linked = fs::hard_link(&written, path);
+    let _ = fs::remove_file(&written);
+    match linked {
+        Ok(()) => Ok(file),
+        Err(e) if e.kind() == ErrorKind::AlreadyExists => Err(e),
+        // A file system without links.
+        Err(_) => new(path),
     }
 }
 
@@ -306,6 +325,32 @@ mod tests {
             std::env::temp_dir().join(format!("stickslip-lease-{name}-{}", std::process::id()));
         fs::create_dir_all(&folder).unwrap();
         folder
+    }
+
+    #[test]
+    fn a_lease_is_never_seen_empty() {
+        let folder = folder("whole");
+        let path = folder.join("a.lease");
+        let over = std::sync::atomic::AtomicBool::new(false);
+        std::thread::scope(|scope| {
+            let looks = scope.spawn(|| {
+                let mut seen = 0;
+                while !over.load(Ordering::Relaxed) {
+                    if let Ok(text) = fs::read(&path) {
+                        assert!(Holder::parse(&text).is_some(), "{text:?}");
+                        seen += 1;
+                    }
+                }
+                seen
+            });
+            for _ in 0..100 {
+                assert!(matches!(Lease::ask(&path), Asked::Ours(_)));
+            }
+            over.store(true, Ordering::Relaxed);
+            assert!(looks.join().unwrap() > 0);
+        });
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
+        fs::remove_dir_all(&folder).unwrap();
     }
 
     #[test]

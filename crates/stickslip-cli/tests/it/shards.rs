@@ -4,7 +4,7 @@ use crate::support::{self, CASE, command, text};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::{Child, Output, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Eight runs with two bodies; of one surface there are no points, and increments are enough to be killed between.
 const SET: [&str; 6] = [
@@ -179,7 +179,6 @@ fn a_shard_that_is_killed_goes_on_where_it_was() {
         let lines = || std::fs::read_to_string(&rows).unwrap_or_default();
         let (before, known) = (lines(), files(&folder));
         let mut child = shard(&folder, part);
-        let started = Instant::now();
         let come = || match moment {
             Moment::Soon => true,
             Moment::File(ends) => names(&folder, ends)
@@ -189,7 +188,7 @@ fn a_shard_that_is_killed_goes_on_where_it_was() {
         };
         // It may be over before; then there is nothing to kill, and that is as good.
         while !come() && child.try_wait().expect("a state").is_none() {
-            assert!(started.elapsed() < Duration::from_secs(60));
+            std::thread::sleep(Duration::from_millis(1));
         }
         let _ = child.kill();
         child.wait().expect("it ends");
@@ -331,9 +330,8 @@ fn a_shard_has_one_process_at_a_time_and_that_of_the_dead_is_taken_over() {
     let folder = place("held");
     let mut first = shard(&folder, "1/2");
     let lease = folder.join("case.sweep.shards/1-of-2/shard.lease");
-    let started = Instant::now();
-    while !lease.exists() {
-        assert!(started.elapsed() < Duration::from_secs(60));
+    while !lease.exists() && first.try_wait().expect("a state").is_none() {
+        std::thread::sleep(Duration::from_millis(1));
     }
     let second = shard(&folder, "1/2").wait_with_output().expect("it ends");
     let at_it = format!("process {} on ", first.id());

@@ -32,6 +32,12 @@ fn a_job_with_parts_a_tie_a_coupling_two_pairs_and_a_bolt_agrees_with_calculix()
         near(at(t, "forces", 1)[0], -head, 0.001);
     }
     near(at(2.0, "total force", 2)[0], -30.0, 1e-6);
+    // An increment that waits for the interior of its bodies prints its own contact: half of the force is there after half of the step.
+    let halfway = at(0.5, "area,  normal force", 1);
+    assert_eq!(halfway.len(), 2);
+    halfway
+        .into_iter()
+        .for_each(|pull| near(pull, -250.0, 1e-3));
 
     // The same model from parts and instances, to the digits that are printed.
     let job = run("bolted", JOB);

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use stickslip::Error;
 use stickslip::error::IoError;
 use stickslip::io::{drop_leftovers, own, write_atomically};
-use stickslip::lease::{Asked, Lease, Waiting};
+use stickslip::lease::{self, Asked, Lease, Waiting};
 use stickslip::linear::Digest;
 use stickslip::results::digest_of;
 
@@ -487,7 +487,10 @@ fn take(
     let mut before = None;
     loop {
         match Lease::ask(path) {
-            Asked::Ours(lease) => return Ok((Some(lease), before)),
+            Asked::Ours(lease) => {
+                lease::drop_leftovers(path);
+                return Ok((Some(lease), before));
+            }
             Asked::Nobodys => {
                 let e = std::io::Error::other("it cannot be written");
                 return Err(Error::io(path, e).into());
