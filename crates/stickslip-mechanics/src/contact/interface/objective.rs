@@ -189,6 +189,7 @@ fn drum(
             positive_areas(kind, &x, |_| 1.0).iter().sum()
         },
         held: vec![false; nodes.len()],
+        depth: f64::INFINITY,
         continues: Vec::new(),
         nodes,
     });
