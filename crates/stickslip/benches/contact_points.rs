@@ -15,7 +15,9 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use stickslip::contact::enforcement::{EnforcementModel, Penalty};
-use stickslip::contact::interface::{History, Initial, Interface, InterfaceDefinition, Primary};
+use stickslip::contact::interface::{
+    Conditions, History, Initial, Interface, InterfaceDefinition, Primary,
+};
 use stickslip::contact::kinematics::{Convective, KinematicsModel, Pop1995, SmallSliding};
 use stickslip::contact::law::friction::{Coulomb, FrictionModel};
 use stickslip::contact::response::Laws;
@@ -222,7 +224,8 @@ fn measure(name: &str, kind: ElementKind, bent: bool, kinematics: KinematicsMode
         frames: None,
     };
     let history = History::new(interface.points.len());
-    let mut interface = interface.force(&history);
+    let conditions = Conditions::default();
+    let mut interface = interface.force(&history, &conditions);
     let mut out = Assembler::new(interface.dofs.count());
     interface.begin();
     let mut searched = f64::INFINITY;

@@ -293,7 +293,8 @@ impl View<'_> {
         }
         let ways = self.model.bodies.iter().map(|body| self.way(body));
         let way = ways.fold(0.0, f64::max);
-        for (acting, interface) in self.contact.interfaces.iter().zip(self.contacts()) {
+        let all = self.contact.interfaces.iter().zip(&self.solver.conditions);
+        for ((acting, conditions), interface) in all.zip(self.contacts()) {
             let q = look::quality(interface);
             let r = look::resultant(interface, &self.frame.state.u);
             let place = format!("interface {}", interface.name);
@@ -341,7 +342,7 @@ impl View<'_> {
             let uneven = [q.oscillation * r.total, r.total];
             note(&OSCILLATION, uneven, limits.oscillation);
             if let Some(limit) = longest_way(self.model, &interface) {
-                let way = [look::slid(acting), limit];
+                let way = [look::slid(acting, conditions), limit];
                 note(&EXPLICIT_WEAR, way, limits.explicit_wear);
             }
             if let Some(pair) = look::false_shear(interface, &self.frame.state.u) {

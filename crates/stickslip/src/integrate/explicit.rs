@@ -11,7 +11,7 @@ use std::sync::Arc;
 use super::exact::{Exact, Mobility};
 use super::onset::{AFTER, initial_contact, look_at_contact};
 use crate::body::internal::{InternalForce, largest_eigenvalue};
-use crate::contact::interface::{History, Interface, use_springs};
+use crate::contact::interface::{Conditions, History, Interface, use_springs};
 use crate::error::{Error, RunError};
 use crate::model::contact::Contact;
 use crate::model::definition::{Dynamic, Model};
@@ -287,6 +287,7 @@ impl Explicit {
         model: &Model,
         frame: &mut Frame,
         contact: &mut Contact,
+        conditions: &[Conditions],
         dynamic: &Dynamic,
     ) -> Result<Self, Error> {
         let n = frame.state.u.len();
@@ -319,7 +320,7 @@ impl Explicit {
         couplings.fit_springs(soon, explicit.frequency, &explicit.inverse, &model.links);
         // What is in contact already bounds the first increment, too: the last evaluation, if there was one, was of other laws and multipliers.
         let alone = explicit.stable_alone().min(step.increments.largest);
-        look_at_contact(model, frame, contact, soon, alone);
+        look_at_contact(model, frame, contact, conditions, soon, alone);
         let stable = explicit.stable_increment(model, frame, contact);
         let dt = stable.min(step.increments.largest);
         let limit = explicit.stable(explicit.contact_frequency(model, frame, contact));
@@ -330,7 +331,8 @@ impl Explicit {
         }
         explicit.begun.stable = if stable.is_finite() { stable } else { 0.0 };
         frame.load = frame.external(model, soon);
-        frame.contact = initial_contact(model, frame, contact, soon, dt).map_err(|e| e.at(soon))?;
+        frame.contact =
+            initial_contact(model, frame, contact, conditions, soon, dt).map_err(|e| e.at(soon))?;
         explicit.start_forces(model, frame, contact);
         explicit.start_acceleration(model, frame, &constraints);
         explicit.start_exactly(model, frame, contact, &constraints)?;

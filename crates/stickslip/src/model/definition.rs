@@ -9,7 +9,7 @@ use super::limits::Limits;
 use super::modal::{KickPlan, Modal, SteadyPlan};
 use crate::body::loads::{Load, Spring};
 use crate::body::{Elastic, MassKind, Space};
-use crate::contact::interface::Change;
+use crate::contact::interface::{Change, Steady};
 use crate::fatigue::FatigueModel;
 use crate::io::frd::Encoding;
 use crate::math::{Mat3, Vec3};
@@ -217,6 +217,17 @@ impl Model {
     /// Whether any step is dynamic.
     pub fn moves(&self) -> bool {
         self.steps.iter().any(|s| s.dynamic.is_some())
+    }
+
+    /// The sliding of an interface that lasts in a step, if any does. Modes are about that of the last step in which something moved, where a belt runs all the time,
+    /// whoever set it going.
+    pub(crate) fn sliding(&self, step: usize, interface: &str) -> Option<Steady> {
+        let mut before = self.steps[..=step].iter().rev();
+        let moving = before.find(|s| s.modal.is_none());
+        let plan = moving.and_then(|s| s.steady.as_ref());
+        let modal = self.steps[step].modal.as_ref();
+        let plan = plan.map(|plan| plan.of(interface));
+        plan.or(modal.map(|_| Steady::default()))
     }
 
     /// What multigrid has to know of the mesh; see [`Factors::multigrid`](crate::newton::Factors::multigrid).

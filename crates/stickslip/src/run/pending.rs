@@ -42,13 +42,14 @@ impl Simulation {
             // In motion that has been done when it was weighed.
             if model.steps[frame.step].dynamic.is_none() {
                 let stage = accepted.stage(&frame.state, *trial);
-                frame.contacts = Arc::new(contact.commit(&frame.contacts, &stage));
+                frame.contacts =
+                    Arc::new(contact.commit(&frame.contacts, &solver.conditions, &stage));
                 (frame.course).go_on(trial.to - trial.from, frame.state.u.clone());
             }
             return self.report(pending, observers);
         };
         let stage = accepted.stage(&condensed.state, *trial);
-        let after = contact.commit(solver.contacts(frame), &stage);
+        let after = contact.commit(solver.contacts(frame), &solver.conditions, &stage);
         let after = Arc::new(after);
         pending.found = solver.move_ahead(&mut pending.accepted, pending.trial);
         pending.seen = solver.seen.take();
@@ -199,8 +200,9 @@ impl Simulation {
     pub(super) fn put_out(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
         let views = self.contact.views(&self.frame);
         let State { u, t, .. } = &self.frame.state;
-        let interfaces = self.contact.interfaces.iter().zip(views);
-        let gaps = interfaces.map(|(i, view)| look::excluded_gaps(view, &i.conditions, u, *t));
+        let interfaces = self.solver.conditions.iter().zip(views);
+        let gaps =
+            interfaces.map(|(conditions, view)| look::excluded_gaps(view, conditions, u, *t));
         let gaps: Vec<_> = gaps.collect();
         let histories = &mut Arc::make_mut(&mut self.frame.contacts).interfaces;
         for (history, gaps) in histories.iter_mut().zip(gaps) {

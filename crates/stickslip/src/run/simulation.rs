@@ -110,7 +110,7 @@ impl Simulation {
             mut contact,
             notes,
         } = setup;
-        let mut solver = Solver::new(&model, library);
+        let mut solver = Solver::new(&model, contact.interfaces.len(), library);
         solver.log.notes = notes;
         let frame = start(&model, &mut contact, &solver);
         let probed = |point| model.elastic().find_map(|b| b.elastic.around(point));
@@ -196,7 +196,12 @@ impl Simulation {
 
     /// Gaps at the start by interface, and what the doctor finds in the model.
     pub(crate) fn look(&mut self) -> (Vec<Vec<f64>>, Vec<Finding>) {
-        let gaps = start_gaps(&self.model, &self.frame, &mut self.contact);
+        let gaps = start_gaps(
+            &self.model,
+            &self.frame,
+            &mut self.contact,
+            &self.solver.conditions,
+        );
         let findings = doctor::examine(&view!(self), &self.judges.unjoined, &gaps);
         (gaps, findings)
     }

@@ -7,7 +7,7 @@ use std::time::Instant;
 use super::queue::{Due, Failed, Pending};
 use super::simulation::{Simulation, view};
 use crate::assess::doctor;
-use crate::contact::interface::set_masses;
+use crate::contact::interface::mass_per_area;
 use crate::error::Error;
 use crate::integrate::explicit::Explicit;
 use crate::integrate::implicit::Implicit;
@@ -190,7 +190,6 @@ impl Simulation {
     /// Begins a step.
     fn begin_step(&mut self, step: usize) -> Result<(), Error> {
         let kick = self.find_kick(step)?;
-        self.begin_sliding(step);
         self.frame.kick = kick;
         let Simulation {
             model,
@@ -201,10 +200,19 @@ impl Simulation {
             ..
         } = self;
         frame.step = step;
+        for (interface, conditions) in contact.interfaces.iter().zip(&mut solver.conditions) {
+            conditions.steady = model.sliding(step, &interface.name);
+            conditions.impulses = false;
+        }
         frame.block = Block::default();
         frame.begin_step(model, contact);
         let contacts = Arc::make_mut(&mut frame.contacts);
-        contact.begin_acting(contacts, &model.steps[step], &frame.state);
+        contact.begin_acting(
+            contacts,
+            &solver.conditions,
+            &model.steps[step],
+            &frame.state,
+        );
         if model.steps[step].modal.is_some() {
             return Ok(());
         }
@@ -226,7 +234,8 @@ impl Simulation {
             }
             Method::Explicit { .. } => {
                 solver.include_all(model, contact);
-                let explicit = Explicit::begin(model, frame, contact, &dynamic)?;
+                let explicit =
+                    Explicit::begin(model, frame, contact, &solver.conditions, &dynamic)?;
                 summary.mass_added = explicit.begun.mass_added;
                 summary.stable_increment = explicit.begun.stable;
                 Integration::Explicit(Box::new(explicit))
@@ -251,8 +260,8 @@ impl Simulation {
         frame.state.a.clear();
         frame.motion = Motion::default();
         solver.come_to_rest();
-        for interface in &mut contact.interfaces {
-            set_masses(interface, &[]);
+        for (interface, conditions) in contact.interfaces.iter().zip(&mut solver.conditions) {
+            conditions.inertia = mass_per_area(interface, &[]);
         }
         let contacts = Arc::make_mut(&mut frame.contacts);
         contact.use_springs(contacts, false, |energy| frame.ledger.initial += energy);
@@ -267,8 +276,8 @@ impl Simulation {
             return Err(error);
         }
         let (model, frame) = (&self.model, &self.frame);
-        (self.solver).choose_candidates(model, frame, &mut self.contact);
-        (self.solver).condense(model, frame, &mut self.contact);
+        (self.solver).choose_candidates(model, frame, &self.contact);
+        (self.solver).condense(model, frame, &self.contact);
         Ok(())
     }
 
@@ -344,7 +353,7 @@ impl Simulation {
             }
             Err(failure) if failure.cause == Cause::Reach => {
                 self.flush(observers)?;
-                (self.solver).widen(&self.model, &self.frame, &mut self.contact);
+                (self.solver).widen(&self.model, &self.frame, &self.contact);
                 self.tell_notes(observers)?;
             }
             Err(failure) if failure.cause == Cause::Interior => {
@@ -365,14 +374,14 @@ impl Simulation {
         Ok(Some(running))
     }
 
-    /// Tells interfaces for how many cycles beside its own an increment stands.
+    /// Takes note for how many cycles beside its own an increment stands.
     fn count_cycles(&mut self, trial: Trial) {
         let step = self.step();
         let since = trial.from - step.start;
         let block = step.cycles.map(|c| c.block(since, self.frame.block));
         let skipped = block.map_or(0.0, |b| b.stands_for as f64 - 1.0);
-        for interface in &mut self.contact.interfaces {
-            interface.conditions.skipped = skipped;
+        for conditions in &mut self.solver.conditions {
+            conditions.skipped = skipped;
         }
     }
 

@@ -46,7 +46,7 @@ impl Simulation {
             return Ok(accepted);
         }
         let stage = accepted.stage(&self.frame.state, trial);
-        let after = (self.contact).commit(&self.frame.contacts, &stage);
+        let after = (self.contact).commit(&self.frame.contacts, &self.solver.conditions, &stage);
         if self.is_weighed() {
             let [opened, may] = self.opened(trial, &accepted, &after);
             let length = trial.to - trial.from;

@@ -1,7 +1,7 @@
 //! Solutions that are refused although Newton's method has found them.
 
 use crate::contact::interface::ContactView;
-use crate::contact::interface::spreads;
+use crate::contact::interface::{Conditions, spreads};
 use crate::contact::look;
 use crate::math::larger;
 use crate::model::contact::Contact;
@@ -111,8 +111,12 @@ pub(crate) fn check_way<'a>(
 }
 
 /// Refuses a solution with contact near points that do not take part.
-pub(crate) fn check_candidates(contact: &Contact) -> Result<(), StepFailure> {
-    if contact.interfaces.iter().any(spreads) {
+pub(crate) fn check_candidates(
+    contact: &Contact,
+    conditions: &[Conditions],
+) -> Result<(), StepFailure> {
+    let mut interfaces = contact.interfaces.iter().zip(conditions);
+    if interfaces.any(|(i, conditions)| spreads(i, conditions)) {
         return Err(StepFailure::new(
             Cause::Reach,
             "contact comes near to points that were not expected to be touched",

@@ -10,6 +10,7 @@ use super::condenser::Condenser;
 use super::floating_bodies::Floating;
 use super::inertia::Inertia;
 use super::work::Seen;
+use crate::contact::interface::Conditions;
 use crate::linear::{BlockCsr, Digest, Engine, Matrix};
 use crate::model::contact::Contact;
 use crate::model::definition::{Model, Solution};
@@ -38,6 +39,8 @@ pub(crate) struct Solver {
     pub inertia: Option<Inertia>,
     /// How many matrices of increments in motion there have been: no key is given twice.
     pub keys: u64,
+    /// What holds for each interface in the increment at hand.
+    pub conditions: Vec<Conditions>,
     /// Bodies that only contact can hold.
     pub floating: Floating,
     /// Iterations that nobody has been told of.
@@ -63,8 +66,8 @@ pub(crate) struct Log {
 }
 
 impl Solver {
-    /// With the stiffness of the model, but for an analysis of explicit steps alone.
-    pub fn new(model: &Model, library: Arc<Library>) -> Self {
+    /// With the stiffness of the model, but for an analysis of explicit steps alone, and so many interfaces.
+    pub fn new(model: &Model, interfaces: usize, library: Arc<Library>) -> Self {
         let identity = identity(model);
         let by_cells = ByCells::new(model, identity);
         let stiffness: Arc<dyn Matrix> = match suffices(model) {
@@ -87,6 +90,7 @@ impl Solver {
             condenser: Condenser::new(library),
             inertia: None,
             keys: 0,
+            conditions: vec![Conditions::default(); interfaces],
             floating: Floating::default(),
             seen: Seen::default(),
             log: Log::default(),
@@ -135,7 +139,7 @@ impl Solver {
                 (matrix, diagonal, key, none, Some(origin))
             }
         };
-        let mut forces = contact.forces(task.contacts);
+        let mut forces = contact.forces(task.contacts, &self.conditions);
         let forces = match origin {
             None => self.floating.with(forces.all()),
             Some(_) => forces.all(),

@@ -8,7 +8,7 @@ use stickslip::contact::look;
 
 use stickslip::Error;
 use stickslip::assess::View;
-use stickslip::contact::interface::set_user_laws;
+use stickslip::contact::interface::with_user_laws;
 use stickslip::contact::law::user::{LimitFunction, PressureFunction};
 use stickslip::model::Solution;
 use stickslip::problem::Problem;
@@ -240,11 +240,9 @@ fn laws_of_the_program_do_what_the_same_laws_of_the_problem_do() {
             .replace("friction.coulomb = { mu = 0.3 }", "");
         let mut setup = support::problem(&other).build(Path::new("")).unwrap();
         let functions = Arc::new(Functions::default());
-        set_user_laws(
-            &mut setup.contact.interfaces[0],
-            Some(functions.clone()),
-            Some(functions.clone()),
-        );
+        let interface = &mut setup.contact.interfaces[0];
+        interface.definition =
+            with_user_laws(interface, Some(functions.clone()), Some(functions.clone()));
         let mut simulation = Simulation::new(setup).unwrap();
         let mut seen = Diary::default();
         simulation.run(&mut [&mut seen]).unwrap();

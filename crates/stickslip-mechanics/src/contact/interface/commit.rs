@@ -297,14 +297,14 @@ fn pass(
             path: h.path + interface.conditions.cycles() * path,
             spent: h.spent + interface.conditions.cycles() * dissipated,
             limit,
-            sheared: sheared(interface, shear, e.tangential_stiffness),
+            sheared: sheared(interface.contact, shear, e.tangential_stiffness),
             stiffness: [e.normal_stiffness, e.tangential_stiffness],
         },
     }
 }
 
 /// Elastic energy per area of the spring by which a point sticks; multipliers that are updated leave nothing in it.
-pub(super) fn sheared(interface: InterfaceInput, shear: Vec3, stiffness: f64) -> f64 {
+pub(super) fn sheared(interface: ContactView, shear: Vec3, stiffness: f64) -> f64 {
     let updated = matches!(
         interface.laws.enforcement.as_dyn().multipliers(),
         Multipliers::Augmented { .. }

@@ -250,6 +250,14 @@ impl InterfaceDefinition {
         facets.iter().flat_map(|f| f.nodes.iter().copied())
     }
 
+    /// The same surfaces under other laws.
+    pub(super) fn with_laws(&self, laws: Laws) -> Self {
+        InterfaceDefinition {
+            laws,
+            ..self.clone()
+        }
+    }
+
     /// Whether sliding wears off one of the surfaces.
     pub fn wears(&self) -> bool {
         self.laws.wear.as_dyn().active()

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::commit::commit;
+use super::conditions::Conditions;
 use super::definition::{InterfaceDefinition, Primary};
 use super::history::{History, PointHistory};
 use super::parts::Interface;
@@ -268,7 +269,8 @@ pub(super) fn accept(
     place: impl Fn(usize, Vec3) -> Vec3,
 ) -> State {
     let at = tried(interface, from, place);
-    let mut force = interface.interface.force(&interface.state);
+    let conditions = Conditions::default();
+    let mut force = interface.interface.force(&interface.state, &conditions);
     interface.state = commit(&mut force, &stage(from, &at));
     at
 }
@@ -303,7 +305,8 @@ pub(super) fn tried(
     let stage = stage(from, &at);
     let mut out = Assembler::new(interface.dofs.count());
     out.reset(false);
-    let mut force = interface.interface.force(&interface.state);
+    let conditions = Conditions::default();
+    let mut force = interface.interface.force(&interface.state, &conditions);
     force.prepare(&stage);
     force.begin();
     force.assemble(&stage, &mut out).expect("forces");

@@ -143,10 +143,15 @@ fn stiffnesses(i: usize, stencil: &Stencil, scene: &Scene) -> Stiffnesses {
         _ => point.stiffness,
     };
     let normal = match interface.laws.needs_normal_stiffness() {
-        true => spring(interface, enforcement.normal(), own),
+        true => spring(
+            interface.contact,
+            interface.attempt,
+            enforcement.normal(),
+            own,
+        ),
         false => f64::INFINITY,
     };
-    let tangential = tangential_stiffness(interface, own);
+    let tangential = tangential_stiffness(interface.contact, interface.attempt, own);
     let touches = interface.attempt.never_in_contact && stencil.gap <= TOUCHING * point.size;
     Stiffnesses {
         normal,

@@ -1,5 +1,6 @@
 //! Whole interfaces: what is skipped makes no difference, and the tangent is that of the force.
 
+use super::Conditions;
 use super::Initial;
 use super::attempt::Flips;
 use super::definition::{InterfaceDefinition, Primary};
@@ -231,7 +232,8 @@ fn the_tangent_is_that_of_the_force() {
             let from = moved(&interface, 0.0, 1e-3);
             let mut at = moved(&interface, 1.0, 1e-3);
             let history = History::new(interface.points.len());
-            let mut interface = interface.force(&history);
+            let conditions = Conditions::default();
+            let mut interface = interface.force(&history, &conditions);
             let mut out = Assembler::new(count);
             let mut force = |at: &State, tangent: bool, surrogate: bool| {
                 let stage = Stage {
@@ -339,7 +341,8 @@ fn numbers_of_facets_make_no_difference() {
             let mut out = Assembler::new(interface.dofs.count());
             out.reset(false);
             let history = History::new(interface.points.len());
-            let mut interface = interface.force(&history);
+            let conditions = Conditions::default();
+            let mut interface = interface.force(&history, &conditions);
             interface.prepare(&stage);
             interface.assemble(&stage, &mut out).expect("forces");
             out.residual
@@ -366,7 +369,8 @@ fn tentative_evaluations_leave_no_trace_until_they_are_settled() {
         let du = moved(&plain, 4.0, 1e-4).u;
         let course = |interface: &mut Interface, tentative: bool, given_up: bool| {
             let history = History::new(interface.points.len());
-            let interface = &mut interface.force(&history);
+            let conditions = Conditions::default();
+            let interface = &mut interface.force(&history, &conditions);
             let mut out = Assembler::new(interface.dofs.count());
             let mut evaluate = |interface: &mut InterfaceForce, at, tangent, tentative| {
                 let stage = Stage {
@@ -443,7 +447,8 @@ fn points_pass_edges_a_few_times_only() {
         let [on, off] = [0.0, 2.0].map(|way| state(&interface, way));
         let mut out = Assembler::new(dofs.count());
         let history = History::new(interface.points.len());
-        let mut interface = interface.force(&history);
+        let conditions = Conditions::default();
+        let mut interface = interface.force(&history, &conditions);
         let mut passes = |interface: &mut InterfaceForce, at: &State| {
             let stage = Stage {
                 from: &on,

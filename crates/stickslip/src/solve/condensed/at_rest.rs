@@ -38,6 +38,7 @@ impl Solver {
             diagonal,
             condenser,
             floating,
+            conditions,
             ..
         } = self;
         let condensed =
@@ -78,7 +79,7 @@ impl Solver {
         let mut bulk =
             CondensedBulk::new(condensation, reduced, diagonal, load, base, guess, scale);
         let fixed = constraints.fixed.clone();
-        let mut forces = contact.forces(contacts);
+        let mut forces = contact.forces(contacts, conditions);
         let converged = Iteration {
             newton,
             seen,
@@ -93,7 +94,7 @@ impl Solver {
         let converged = converged?;
         let dofs = condensation.dofs.iter();
         check_change(model, dofs.map(|&d| (at.u[d], from.u[d])))?;
-        check_candidates(contact)?;
+        check_candidates(contact, conditions)?;
         check_way(model, contact.views_of(contacts), [from, &at], &fixed)?;
         Ok(Accepted {
             contact: converged.contact.clone(),
@@ -202,14 +203,14 @@ impl Solver {
         };
         let largest = &mut self.condenser.largest_forces;
         recovered.check(model.settings.tolerance, largest)?;
-        for (interface, view) in contact.interfaces.iter().zip(contact.views_of(after)) {
-            let overlooked = look::overlooked(view, &interface.conditions, u, t);
+        for (conditions, view) in self.conditions.iter().zip(contact.views_of(after)) {
+            let overlooked = look::overlooked(view, conditions, u, t);
             if overlooked > 0 {
                 return Err(StepFailure::new(
                     Cause::Reach,
                     format!(
                         "interface {}: {overlooked} points penetrate that were not expected to be touched",
-                        interface.name
+                        view.name
                     ),
                 )
                 .help("set `solver.method = \"sparse\"`, or take smaller increments"));

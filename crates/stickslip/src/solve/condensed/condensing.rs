@@ -23,7 +23,7 @@ use crate::solve::work::Work;
 
 impl Solver {
     /// Makes the bodies ready for a quasi-static step.
-    pub fn condense(&mut self, model: &Model, frame: &Frame, contact: &mut Contact) {
+    pub fn condense(&mut self, model: &Model, frame: &Frame, contact: &Contact) {
         // What turns freely would change the load patterns of all interiors in every pass; what turns cell by cell is not linear.
         let turns = model.turns_freely() || model.is_corotational();
         if !self.method.condenses() || turns {
@@ -79,7 +79,7 @@ impl Solver {
         &mut self,
         model: &Model,
         frame: &Frame,
-        contact: &mut Contact,
+        contact: &Contact,
         held: &[bool],
         which: Which,
     ) -> Option<Condensation> {
@@ -242,7 +242,7 @@ impl Solver {
         &mut self,
         model: &Model,
         frame: &Frame,
-        contact: &mut Contact,
+        contact: &Contact,
         why: &str,
     ) {
         self.condenser.moving.clear();
@@ -264,7 +264,7 @@ impl Solver {
         &mut self,
         model: &Model,
         frame: &Frame,
-        contact: &mut Contact,
+        contact: &Contact,
         error: LinearError,
     ) -> Option<Condensation> {
         match error {
@@ -281,7 +281,7 @@ impl Solver {
         &mut self,
         model: &Model,
         frame: &Frame,
-        contact: &mut Contact,
+        contact: &Contact,
         cost: &Cost,
     ) -> Option<Condensation> {
         if !model.engine.as_dyn().condenses() {
@@ -311,7 +311,7 @@ impl Solver {
         &mut self,
         model: &Model,
         frame: &Frame,
-        contact: &mut Contact,
+        contact: &Contact,
         why: &str,
     ) -> Option<Condensation> {
         self.condenser.at_rest = None;

@@ -25,7 +25,7 @@ impl Solver {
         &mut self,
         model: &Model,
         frame: &Frame,
-        contact: &mut Contact,
+        contact: &Contact,
         held: &[bool],
     ) -> bool {
         let (_, _, key) = in_motion(&self.inertia).matrix();
@@ -94,7 +94,7 @@ impl Solver {
             origin.scale,
         );
         let fixed = task.constraints.fixed.clone();
-        let mut forces = contact.forces(task.contacts);
+        let mut forces = contact.forces(task.contacts, &self.conditions);
         let converged = Iteration {
             newton,
             seen: &mut self.seen,
