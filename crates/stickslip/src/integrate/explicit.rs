@@ -110,6 +110,7 @@ impl Explicit {
             }
         }
         let springs: Vec<(usize, f64)> = model
+            .actions
             .springs
             .iter()
             .flat_map(|s| s.entries().iter().copied())
@@ -305,11 +306,11 @@ impl Explicit {
         energy.initial += energy.kinetic - before;
         let step = &model.steps[frame.step];
         let soon = step.start + AFTER * (step.end - step.start);
-        let still = model.supports.iter().all(|s| {
+        let still = model.actions.supports.iter().all(|s| {
             !s.schedule.active(soon) || s.entries.iter().all(|e| e.hold || e.value == 0.0)
         });
         let constraints = frame.constraints(model, soon);
-        explicit.loaded = !model.loads.is_empty() || model.heat.is_some();
+        explicit.loaded = !model.actions.loads.is_empty() || model.actions.heat.is_some();
         let contacts = Arc::make_mut(&mut frame.contacts);
         for (interface, history) in contact.interfaces.iter_mut().zip(&mut contacts.interfaces) {
             frame.ledger.initial += use_springs(interface, history, true);
@@ -351,8 +352,9 @@ impl Explicit {
         let strain: f64 = both.map(|(f, u)| f * u).sum();
         let strain = 0.5 * self.stored.unwrap_or(strain);
         let energy = &mut frame.ledger;
-        let strain =
-            strain + contact.couplings.view(&frame.contacts.couplings).stored() + energy.thermal;
+        let strain = strain
+            + contact.couplings.view(&frame.contacts.couplings).stored()
+            + energy.entered.thermal;
         energy.initial += strain - energy.strain;
         energy.strain = strain;
         model.links.transfer(&mut self.force);

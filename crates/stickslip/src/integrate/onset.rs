@@ -130,7 +130,7 @@ impl Implicit {
             false => solver.strain_energy(model, &frame.state.u),
         };
         let energy = &mut frame.ledger;
-        let strain = strain + energy.thermal;
+        let strain = strain + energy.entered.thermal;
         energy.belt_work += strain - energy.strain;
         energy.strain = strain;
         frame.motion.internal = internal;

@@ -158,7 +158,7 @@ impl Checkpoint {
 
     /// Accepted increments.
     pub fn increments(&self) -> usize {
-        self.summary.increments
+        self.summary.attempts.increments
     }
 
     /// The index of the step at hand, and whether it has ended.

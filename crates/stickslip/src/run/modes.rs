@@ -86,7 +86,7 @@ impl Simulation {
             growth.cycles,
             growth.amplitudes[1],
         ));
-        self.summary.growth.push(growth);
+        self.summary.vibrations.growth.push(growth);
         self.tell_notes(observers)
     }
 
@@ -105,7 +105,7 @@ impl Simulation {
             }
         };
         let modes: Vec<Shape> = outcome.modes.iter().map(shape).collect();
-        let (limits, gate) = (&self.model.quality, &mut self.summary.quality);
+        let (limits, gate) = (&self.model.reports.quality, &mut self.summary.quality);
         let mut notes = Vec::new();
         view!(self).judge_prestress(&modes, limits, gate, &mut notes);
         let t = self.frame.state.t;
@@ -149,7 +149,7 @@ impl Simulation {
                 self.summary.last.extend(figures.zip(values));
             }
         }
-        self.summary.modes.push(outcome.figures());
+        self.summary.vibrations.modes.push(outcome.figures());
         self.modes.push(outcome);
         self.tell_notes(observers)
     }

@@ -175,7 +175,7 @@ impl Simulation {
         if pending.fields && self.trying.is_none() {
             self.put_out(observers)?;
         }
-        self.summary.phases.write += started.elapsed().as_secs_f64();
+        self.summary.cost.phases.write += started.elapsed().as_secs_f64();
         Ok(())
     }
 
@@ -213,7 +213,7 @@ impl Simulation {
 
     /// Judges the last accepted increment.
     fn judge(&mut self) {
-        let limits = &self.model.quality;
+        let limits = &self.model.reports.quality;
         let view = view!(self);
         let summary = &mut self.summary;
         view.watch(&mut self.judges.watches);
@@ -241,16 +241,16 @@ impl Simulation {
     /// Tells observers what has been noted.
     pub(crate) fn tell_notes(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
         let log = &mut self.solver.log;
-        self.summary.method = log.method.into();
-        self.summary.method_reason.clone_from(&log.reason);
+        self.summary.solved_by.method = log.method.into();
+        self.summary.solved_by.method_reason.clone_from(&log.reason);
         if let Some(engine) = &log.engine {
-            self.summary.engine = engine.report().into();
+            self.summary.solved_by.engine = engine.report().into();
         }
         let notes: Vec<String> = log.notes.drain(..).collect();
         for note in notes {
             self.tell(observers, || Event::Note(&note))?;
             // Which method was chosen and why has a place of its own in the summary.
-            let reason = &self.summary.method_reason;
+            let reason = &self.summary.solved_by.method_reason;
             if reason.is_empty() || !note.ends_with(reason.as_str()) {
                 self.summary.notes.push(note);
             }

@@ -80,7 +80,7 @@ impl Simulation {
         }
         simulation.go_back_to(checkpoint)?;
         simulation.started = Instant::now();
-        simulation.saved = (simulation.summary.increments, simulation.started);
+        simulation.saved = (simulation.summary.attempts.increments, simulation.started);
         Ok(simulation)
     }
 

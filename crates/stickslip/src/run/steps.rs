@@ -141,9 +141,9 @@ impl Simulation {
 
     /// Hands on a checkpoint where one is due and can be taken.
     fn save_if_due(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
-        let (every, seconds) = self.model.output.checkpoint;
+        let (every, seconds) = self.model.reports.output.checkpoint;
         let (increments, at) = self.saved;
-        let passed = self.summary.increments - increments;
+        let passed = self.summary.attempts.increments - increments;
         let failed = (self.steps.running.as_ref()).is_some_and(|running| running.failed.is_some());
         let between = self.pending.is_empty() && self.recovered.is_none() && self.trying.is_none();
         if !between || failed {
@@ -236,8 +236,8 @@ impl Simulation {
                 solver.include_all(model, contact);
                 let explicit =
                     Explicit::begin(model, frame, contact, &solver.conditions, &dynamic)?;
-                summary.mass_added = explicit.begun.mass_added;
-                summary.stable_increment = explicit.begun.stable;
+                summary.explicit.mass_added = explicit.begun.mass_added;
+                summary.explicit.stable_increment = explicit.begun.stable;
                 Integration::Explicit(Box::new(explicit))
             }
         };
@@ -461,7 +461,7 @@ impl Simulation {
         accepted: &Accepted,
         observers: &mut [&mut dyn Observer],
     ) -> Result<bool, Error> {
-        let followed = &mut self.summary.followed;
+        let followed = &mut self.summary.loose.followed;
         let anchored = self.solver.floating.is_anchored();
         let contacts = Arc::clone(self.solver.contacts(&self.frame));
         let floating = &mut self.solver.floating;
@@ -528,7 +528,7 @@ impl Simulation {
             accepted.effort.iterations
         };
         running.stepper.accept(trial, iterations);
-        let plan = &self.model.output;
+        let plan = &self.model.reports.output;
         let last = running.stepper.next().is_none();
         let due = last || plan.times.contains(&trial.to) || increment.is_multiple_of(plan.every);
         let row = due || increment.is_multiple_of(plan.history_every);

@@ -75,7 +75,7 @@ pub(crate) fn check_change(
 ) -> Result<(), StepFailure> {
     let change = pairs.fold(0.0, |m, (a, b)| larger(m, (a - b).abs()));
     // A change that is not a number is none that is allowed.
-    if change.is_nan() || change > model.largest_change * model.size {
+    if change.is_nan() || change > model.solution.largest_change * model.size {
         return Err(StepFailure::new(
             Cause::TooFar,
             format!(

@@ -38,7 +38,7 @@ impl Solver {
             frame,
         };
         let mut bodies = Vec::new();
-        if model.follow && !contact.interfaces.is_empty() {
+        if model.solution.follow && !contact.interfaces.is_empty() {
             bodies = scene.free_bodies(middle);
         }
         let active = |i: &&Interface| i.schedule.active(middle);

@@ -78,12 +78,15 @@ impl Solver {
             diagonal: stiffness.diagonal(),
             linear: (model.is_corotational()).then(|| linear_part(model, entries(&stiffness))),
             stiffness,
-            newton: Newton::new(model.settings),
-            method: match (model.method, model.engine.as_dyn().condenses()) {
+            newton: Newton::new(model.solution.settings),
+            method: match (
+                model.solution.method,
+                model.solution.engine.as_dyn().condenses(),
+            ) {
                 (Solution::Automatic, true) => Solution::Condensed,
                 (method, _) => method,
             },
-            factors: match model.method {
+            factors: match model.solution.method {
                 Solution::Multigrid => Factors::multigrid(model.places()),
                 _ => Factors::default(),
             },
@@ -186,7 +189,7 @@ fn identity(model: &Model) -> Identity {
     for link in model.links.all() {
         digest.bytes(format!("{link:?}").as_bytes());
     }
-    for &(dof, k) in model.springs.iter().flat_map(|s| s.entries()) {
+    for &(dof, k) in model.actions.springs.iter().flat_map(|s| s.entries()) {
         digest.word(dof as u64);
         digest.floats(&[k]);
     }

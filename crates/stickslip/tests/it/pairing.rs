@@ -51,11 +51,11 @@ fn a_pole_pressed_on_a_pole_comes_to_rest_on_one_of_its_facets() {
         let mut simulation = balls("tet4", "tet4", 0.15, &joint);
         simulation.run(&mut []).expect("equilibria");
         let summary = &simulation.summary;
-        assert_eq!(summary.cutbacks, 0, "{friction}");
+        assert_eq!(summary.attempts.cutbacks, 0, "{friction}");
         assert!(
-            summary.iterations <= 15 * summary.increments,
+            summary.attempts.iterations <= 15 * summary.attempts.increments,
             "{friction}: {}",
-            summary.iterations
+            summary.attempts.iterations
         );
     }
 }

@@ -243,7 +243,7 @@ fn a_run_with_cutbacks_ends_like_one_without() {
     for (a, b) in with.frame.state.u.iter().zip(&without.frame.state.u) {
         assert!((a - b).abs() <= 1e-9 * size, "{a} {b}");
     }
-    let friction = [&with, &without].map(|s| s.summary.energy.friction);
+    let friction = [&with, &without].map(|s| s.summary.balance.energy.friction);
     assert!(friction[0] > 0.0, "nothing slid");
     assert!(
         (friction[0] / friction[1] - 1.0).abs() < 1e-8,

@@ -68,7 +68,7 @@ pub use candidate_range::{CandidateRange, include_all, restrict_to_candidates, s
 pub use change::{Change, changed};
 pub use commit::commit;
 pub use conditions::{CandidatePoints, Conditions, Steady};
-pub use definition::{InterfaceDefinition, Primary};
+pub use definition::{InterfaceDefinition, InterfaceMesh, Primary};
 pub use ground::{Above, Ground};
 pub use history::History;
 pub use hollows::Hollows;

@@ -1,9 +1,11 @@
 //! Whole interfaces: what is skipped makes no difference, and the tangent is that of the force.
 
+use std::sync::Arc;
+
 use super::Conditions;
 use super::Initial;
 use super::attempt::Flips;
-use super::definition::{InterfaceDefinition, Primary};
+use super::definition::{InterfaceDefinition, InterfaceMesh, Primary};
 use super::history::History;
 use super::parts::Interface;
 use super::parts::InterfaceForce;
@@ -79,22 +81,27 @@ pub(in crate::contact) fn sample(kind: ElementKind, kinematics: KinematicsModel)
     }
     Interface::new(InterfaceDefinition {
         name: "joint".into(),
-        dofs: Dofs {
-            dim: 3,
-            points: reference.len(),
-        },
-        nodes: (0..reference.len()).collect(),
-        node_ids: (0..reference.len() as u64).collect(),
-        reference,
-        primary_nodes: 0,
-        points,
-        mortar: None,
-        neighbours: Vec::new(),
-        skin: Vec::new(),
-        primary: Primary::Facets(facets),
-        hollows: Default::default(),
-        walls: Default::default(),
-        clamped: Vec::new(),
+        mesh: Arc::new(InterfaceMesh {
+            dofs: Dofs {
+                dim: 3,
+                points: reference.len(),
+            },
+            nodes: (0..reference.len()).collect(),
+            node_ids: (0..reference.len() as u64).collect(),
+            reference,
+            primary_nodes: 0,
+            points,
+            mortar: None,
+            neighbours: Vec::new(),
+            skin: Vec::new(),
+            primary: Primary::Facets(facets),
+            hollows: Default::default(),
+            walls: Default::default(),
+            clamped: Vec::new(),
+            edge_tolerance: 1e-3,
+            origin: [0.0; 3],
+            relief: Vec::new(),
+        }),
         share: 1.0,
         exchanged: false,
         laws: Laws {
@@ -107,10 +114,7 @@ pub(in crate::contact) fn sample(kind: ElementKind, kinematics: KinematicsModel)
         schedule: Schedule::always(),
         frames: Default::default(),
         turns: false,
-        edge_tolerance: 1e-3,
-        origin: [0.0; 3],
         initial: Initial::default(),
-        relief: Vec::new(),
     })
 }
 
@@ -302,9 +306,9 @@ fn numbers_of_facets_make_no_difference() {
     for kind in [ElementKind::Tri3, ElementKind::Quad4] {
         let mut ordered = sample(kind, KinematicsModel::default());
         let grid = (CELLS + 1) * (CELLS + 1);
-        let InterfaceDefinition {
+        let InterfaceMesh {
             points, reference, ..
-        } = &mut ordered.definition;
+        } = ordered.definition.mesh_mut();
         for (k, point) in points.iter_mut().enumerate() {
             // right below a node of the surface
             let node = k % grid;
@@ -314,7 +318,7 @@ fn numbers_of_facets_make_no_difference() {
             point.weights = vec![1.0];
         }
         let mut reversed = ordered.clone();
-        if let Primary::Facets(facets) = &mut reversed.definition.primary {
+        if let Primary::Facets(facets) = &mut reversed.definition.mesh_mut().primary {
             facets.reverse();
             for f in facets.iter_mut() {
                 f.continues.clear();

@@ -59,7 +59,7 @@ impl Solver {
         } = condensed;
         let contacts: &ContactMemory = ahead.as_ref().unwrap_or(&frame.contacts);
         let load = patterns.load(&amplitudes, condensation.size());
-        newton.statistics.seconds_solve += started.elapsed().as_secs_f64();
+        newton.statistics.seconds.solve += started.elapsed().as_secs_f64();
         let scale = external.iter().map(|e| e * e).sum::<f64>().sqrt();
         let mut at = State {
             t: trial.to,
@@ -160,7 +160,7 @@ impl Solver {
         for (internal, found) in internal.into_iter().zip(self.stiffness.mul_all(&states)) {
             *internal = Some(found);
         }
-        self.newton.statistics.seconds_recover += started.elapsed().as_secs_f64();
+        self.newton.statistics.seconds.recover += started.elapsed().as_secs_f64();
     }
 
     /// Completes a recovered increment by its forces, and checks that they balance.
@@ -202,7 +202,7 @@ impl Solver {
             others: squares(&accepted.external),
         };
         let largest = &mut self.condenser.largest_forces;
-        recovered.check(model.settings.tolerance, largest)?;
+        recovered.check(model.solution.settings.tolerance, largest)?;
         for (conditions, view) in self.conditions.iter().zip(contact.views_of(after)) {
             let overlooked = look::overlooked(view, conditions, u, t);
             if overlooked > 0 {
@@ -223,7 +223,7 @@ impl Solver {
             ..Flow::default()
         };
         accepted.forces = forces;
-        self.newton.statistics.seconds_recover += started.elapsed().as_secs_f64();
+        self.newton.statistics.seconds.recover += started.elapsed().as_secs_f64();
         Ok(())
     }
 }

@@ -79,7 +79,7 @@ impl Solver {
         }
         self.condenser.kept = None;
         self.log.method = "explicit";
-        if model.engine.as_dyn().condenses() {
+        if model.solution.engine.as_dyn().condenses() {
             let idle = "explicit steps factor nothing: the engine has nothing to do in them";
             self.log.notes.push(idle.into());
         }
