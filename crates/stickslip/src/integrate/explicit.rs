@@ -403,11 +403,11 @@ impl Explicit {
     ) -> Result<(), Error> {
         let step = &model.steps[frame.step];
         let soon = step.start + AFTER * (step.end - step.start);
-        let mut exact = Exact::gather(model, frame, contact, soon, &Exact::default());
-        if exact.is_empty() {
+        let gathered = Exact::gather(model, frame, contact, soon, &Exact::default());
+        if gathered.is_empty() {
             return Ok(());
         }
-        let acting = exact.begin();
+        let (mut exact, acting) = gathered.begin();
         let found = exact.balance(&self.mobility(constraints), &frame.state.a);
         found.map_err(|e| e.at(soon))?;
         let mut more = Assembler::new(frame.contact.len());
