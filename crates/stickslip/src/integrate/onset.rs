@@ -67,13 +67,15 @@ impl Implicit {
             step.increments.initial,
         );
         frame.load = frame.external(model, t);
-        let pressed = self.press_light(model, frame, contact, solver, t, dt);
+        let pressed = self.equilibrate_massless(model, frame, contact, solver, t, dt);
         let evaluated = initial_contact(model, frame, contact, &solver.conditions, t, dt)
             .map_err(|e| e.at(t))?;
         let before = std::mem::replace(&mut frame.contact, evaluated);
         match self.tried_contact(model, frame, contact, solver, dt) {
             Some(forces) => frame.contact = forces,
-            None => keep_light(model, frame, contact, solver, t, &pressed.unwrap_or(before)),
+            None => {
+                keep_massless_forces(model, frame, contact, solver, t, &pressed.unwrap_or(before))
+            }
         }
         let lag = self.alphas.lag() * dt;
         initial_acceleration(model, frame, contact, solver, t, lag).map_err(|e| e.at(t).into())
@@ -81,7 +83,7 @@ impl Implicit {
 
     /// Lets points without mass go where overlap presses them, which takes them no time, with the forces there; `None` where none overlap, and where no equilibrium
     /// is found. What that strains bodies by is work of the overlap. Damping has no part in it: it would make any work of what takes no time.
-    fn press_light(
+    fn equilibrate_massless(
         &self,
         model: &Model,
         frame: &mut Frame,
@@ -389,7 +391,7 @@ fn coupling_forces(links: &Links, count: usize, add: impl Fn(&mut [f64])) -> Vec
 }
 
 /// Points without mass go on with the forces that they had at rest.
-fn keep_light(
+fn keep_massless_forces(
     model: &Model,
     frame: &mut Frame,
     contact: &Contact,

@@ -108,7 +108,7 @@ impl Simulation {
         self.frame.block = block;
         self.frame.state.t = at;
         self.solver.condenser.pass_time(at);
-        self.forget_direction();
+        self.reset_predictor();
     }
 
     fn wears(&self) -> bool {
@@ -369,7 +369,7 @@ impl Simulation {
             self.tell(observers, || Event::Cycle(row))?;
         }
         match trying.fields {
-            true => self.put_out(observers),
+            true => self.write_fields(observers),
             false => Ok(()),
         }?;
         self.tell_notes(observers)

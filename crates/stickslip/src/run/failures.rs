@@ -80,7 +80,7 @@ impl Simulation {
     /// Takes note of an attempt that failed.
     pub(crate) fn reject(&mut self, trial: &Trial, failure: &StepFailure) {
         // What the last increment did is no guide any more.
-        self.forget_direction();
+        self.reset_predictor();
         let summary = &mut self.summary;
         if failure.cause == Cause::Event {
             summary.attempts.events += 1;

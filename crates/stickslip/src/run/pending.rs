@@ -97,7 +97,7 @@ impl Simulation {
                     self.pending.clear();
                     return Err(failure.at(self.frame.state.t).into());
                 }
-                return Err(self.takes_back(&one, failure));
+                return Err(self.roll_back(&one, failure));
             }
             if let Some(after) = one.after.take() {
                 self.frame.contacts = after;
@@ -173,7 +173,7 @@ impl Simulation {
             }
         }
         if pending.fields && self.trying.is_none() {
-            self.put_out(observers)?;
+            self.write_fields(observers)?;
         }
         self.summary.cost.phases.write += started.elapsed().as_secs_f64();
         Ok(())
@@ -197,7 +197,10 @@ impl Simulation {
     }
 
     /// Tells observers that fields are due.
-    pub(super) fn put_out(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+    pub(super) fn write_fields(
+        &mut self,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<(), Error> {
         let views = self.contact.views(&self.frame);
         let State { u, t, .. } = &self.frame.state;
         let interfaces = self.solver.conditions.iter().zip(views);
@@ -259,8 +262,8 @@ impl Simulation {
     }
 
     /// What the last increment did is no guide for the next.
-    pub(crate) fn forget_direction(&mut self) {
+    pub(crate) fn reset_predictor(&mut self) {
         self.frame.course.forget();
-        self.solver.condenser.forget_direction();
+        self.solver.condenser.reset_predictor();
     }
 }

@@ -259,7 +259,7 @@ impl Simulation {
         frame.state.v.clear();
         frame.state.a.clear();
         frame.motion = Motion::default();
-        solver.come_to_rest();
+        solver.end_dynamics();
         for (interface, conditions) in contact.interfaces.iter().zip(&mut solver.conditions) {
             conditions.inertia = mass_per_area(interface, &[]);
         }
@@ -267,7 +267,7 @@ impl Simulation {
         contact.use_springs(contacts, false, |energy| frame.ledger.initial += energy);
         self.integration = Integration::QuasiStatic(QuasiStatic);
         solver.find_floating_bodies(model, frame, contact);
-        if let Some((finding, error)) = view!(self).refuse_unheld() {
+        if let Some((finding, error)) = view!(self).refuse_rigid_modes() {
             doctor::note(&mut self.summary.findings, finding);
             return Err(error.into());
         }
@@ -422,7 +422,7 @@ impl Simulation {
         };
         let outcome = self.solver.floating.judge(scene, outcome, trial);
         if self.solver.floating.went_astray() {
-            self.forget_direction();
+            self.reset_predictor();
         }
         Ok(outcome)
     }
@@ -492,7 +492,7 @@ impl Simulation {
     ) -> Result<bool, Error> {
         let stiffer = self.solver.floating.wants_stiffer_anchors(failure);
         if stiffer {
-            self.forget_direction();
+            self.reset_predictor();
         } else if !self.solver.floating.may_follow(self.step(), failure) {
             return Ok(false);
         }
@@ -545,7 +545,7 @@ impl Simulation {
         }
         self.go_on(pending, last, observers)?;
         if self.step().corners.contains(&trial.to) {
-            self.forget_direction();
+            self.reset_predictor();
         }
         running.attempt = 1;
         self.end_block(running, trial.to, observers)

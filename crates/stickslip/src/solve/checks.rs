@@ -97,8 +97,7 @@ pub(crate) fn check_way<'a>(
         return Ok(());
     }
     for interface in contacts {
-        if let Some(deep) = look::passes_through(interface, ends.map(|s| &*s.u), ends.map(|s| s.t))
-        {
+        if let Some(deep) = look::tunnels(interface, ends.map(|s| &*s.u), ends.map(|s| s.t)) {
             let message = format!(
                 "interface `{}`: bodies overlap by {deep:.3e} on the way to what was found: an axle that nothing but contact holds has turned through what it touches",
                 interface.name

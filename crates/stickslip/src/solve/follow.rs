@@ -183,7 +183,7 @@ impl Solver {
         frame.state.u = u;
         model.links.impose(&mut frame.state.u);
         frame.course.forget();
-        self.condenser.forget_direction();
+        self.condenser.reset_predictor();
         self.choose_candidates(model, frame, contact);
         self.condenser.drop_at_rest();
         self.condense(model, frame, contact);

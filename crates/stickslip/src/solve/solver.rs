@@ -107,7 +107,7 @@ impl Solver {
     }
 
     /// Nothing moves any more: what was made of the masses goes.
-    pub fn come_to_rest(&mut self) {
+    pub fn end_dynamics(&mut self) {
         if let Some(inertia) = self.inertia.take() {
             self.keys = inertia.keys();
         }

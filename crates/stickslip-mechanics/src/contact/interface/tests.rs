@@ -157,7 +157,7 @@ fn a_point_that_comes_back_goes_to_and_fro() {
             flips.meets(Some(f));
             flips.meets(None);
         }
-        flips.goes_to_and_fro()
+        flips.oscillates()
     };
     assert!(!visits(&[1, 2, 3, 4, 5, 6, 7]));
     assert!(!visits(&[1, 2, 2, 1, 1, 2]));
