@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use stickslip_audit::mix::{self, Mix, Relation, pair};
+use stickslip_audit::mix::{self, Mix, Relation, WITHOUT_PENALTY, pair};
 use stickslip_audit::verdict::Verdict;
 
 use crate::robustness::entry::{self, Entry};
@@ -88,6 +88,20 @@ fn one(binary: &Path, mix: &Mix, seed: u64, number: u64, place: &Path) -> Result
             outcome.lines.extend(second.lines);
             if let Some(verdict) = second.verdict.filter(|_| !outcome.verdict.broken()) {
                 outcome.verdict = verdict;
+            }
+        }
+    }
+    if outcome.verdict == Verdict::FalseAlarm && WITHOUT_PENALTY.fits(&mix.features) {
+        names.push(WITHOUT_PENALTY.name);
+        let folder = place.join("without-penalty");
+        let job = pair::prepare(mix, &WITHOUT_PENALTY, &out, &folder)?;
+        let exact = outcome::run(binary, &job.words, &folder, LIMIT)?;
+        outcome.seconds += exact.seconds;
+        if exact.exit == Some(0) {
+            let (off, what) = pair::judge(mix, &WITHOUT_PENALTY, &out, &job.out)?;
+            if off > 1.0 {
+                outcome.verdict = Verdict::Rightly;
+                outcome.lines.push(format!("without penalty: {what}"));
             }
         }
     }

@@ -50,6 +50,7 @@ pub fn problem(seed: u64, number: u64) -> Mix {
         split: false,
         renamed: false,
         unturned: false,
+        exact: false,
         method: None,
     };
     let fitting: Vec<Relation> = RELATIONS

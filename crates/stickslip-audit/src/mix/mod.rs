@@ -17,5 +17,5 @@ mod view;
 pub use apart::{APART, apart};
 pub use feature::Feature;
 pub use mixture::{Mix, features, problem};
-pub use relation::{Again, Agreement, RELATIONS, Relation};
+pub use relation::{Again, Agreement, RELATIONS, Relation, WITHOUT_PENALTY};
 pub use view::View;

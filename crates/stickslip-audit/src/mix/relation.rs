@@ -66,6 +66,15 @@ const fn relation(
     }
 }
 
+/// What a penalty leaves: run where the quality gate finds that it is too much, as no audit of the one result can tell.
+pub const WITHOUT_PENALTY: Relation = relation(
+    "without penalty",
+    Again::Text(|v| v.exact = true),
+    Agreement::Solver,
+    &[],
+    &["penalty"],
+);
+
 /// All of them.
 pub const RELATIONS: &[Relation] = &[
     relation(

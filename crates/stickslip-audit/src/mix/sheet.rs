@@ -371,7 +371,8 @@ impl Sheet {
             if joint.tied {
                 text.push_str("tied = true\n");
             }
-            for key in &joint.keys {
+            let kept = |key: &&String| !(self.view.exact && key.starts_with("enforcement."));
+            for key in joint.keys.iter().filter(kept) {
                 let _ = writeln!(text, "{key}");
             }
             text.push('\n');

@@ -25,6 +25,8 @@ pub struct View {
     pub renamed: bool,
     /// Whether the bodies that turn with an axle are left as they are.
     pub unturned: bool,
+    /// Whether contact is enforced by multipliers, whatever the mix says.
+    pub exact: bool,
     /// The way to solve, instead of the one of the mix.
     pub method: Option<&'static str>,
 }

@@ -1,4 +1,4 @@
-//! How thick the body is behind each facet, where its other face belongs to the same surface.
+//! How thick the body is behind each facet of the primary and each face of the secondary, where its other face belongs to the same surface.
 //!
 //! A point can lie behind a facet because it has entered the body, or because it lies beyond its other face and looks the same way as the surfaces that could
 //! enter: the top of a block that stands on a wall lies behind the bottom of the wall. Half of the thickness tells the two apart: what is deeper
@@ -40,7 +40,8 @@ pub fn depth_behind(walls: &[f64], facet: usize) -> f64 {
     walls.get(facet).copied().unwrap_or(f64::INFINITY)
 }
 
-fn depths(facets: &[Facet], x: &[Vec3]) -> Vec<f64> {
+/// By facet with nodes at `x`, the depth behind it down to which it may be met `[m]`; empty where it is infinite for all.
+pub fn depths(facets: &[Facet], x: &[Vec3]) -> Vec<f64> {
     let middles: Vec<(Vec3, Vec3)> = facets.iter().map(|f| middle(f, x)).collect();
     // Nothing lies behind facets that all look the same way.
     let opposed = |&(_, n): &(Vec3, Vec3)| dot(n, middles[0].1) < -AWAY;

@@ -39,6 +39,35 @@ fn balls_that_touch_in_one_point_do_not_overlap() {
     }
 }
 
+/// Behind the faces below a ball, through the ball, lies what looks back at them.
+#[test]
+fn faces_meet_nothing_through_their_own_body() {
+    for lower in ["tet4", "hex8", "hex20"] {
+        let text = format!(
+            r#"
+            format = 1
+            model.space = "solid"
+            body.lower = {{ generate.ball = {{ centre = [0, 0, -10], direction = [0, 0, 1], radius = 10, size = 5, element = "{lower}", refine = {{ finest = 1.8, width = 2, growth = 2.5 }} }}, material = "steel" }}
+            body.upper = {{ generate.half-ball = {{ centre = [0, 0, 10], direction = [0, 0, -1], radius = 10, size = 5, element = "hex8", refine = {{ finest = 1.3, width = 2, growth = 2.5 }} }}, material = "steel" }}
+            material.steel.isotropic = {{ young = 1e5, poisson = 0.3 }}
+            interface.joint = {{ secondary = "lower.arc", primary = "upper.arc", roles = "as-named" }}
+            set.cap = {{ of = "lower", box = {{ from = [-20, -20, -20], to = [20, 20, -12] }} }}
+            support.base = {{ set = "cap", x = 0, y = 0, z = 0 }}
+            support.top = {{ set = "upper.flat", x = 0, y = 0, z = -0.1 }}
+            step = [{{ increments = {{ initial = 0.25, largest = 0.25 }} }}]
+            "#
+        );
+        let problem = Document::new(text, None).problem().expect("a problem");
+        let model = problem.build(Path::new(".")).expect("a model");
+        let mut simulation = Simulation::new(model).expect("a simulation");
+        let report = simulation.check();
+        let smallest = report.interfaces[0].smallest;
+        assert!(smallest > -0.05, "{lower}: {smallest}");
+        simulation.run(&mut []).expect("equilibria");
+        assert_eq!(simulation.summary.attempts.cutbacks, 0, "{lower}");
+    }
+}
+
 /// A node under the pole of a ball of flat facets is as near to one of them as to the next, and held by friction it would come to lie under the other
 /// wherever it was held by one: it stays on the one until its foot leaves it.
 #[test]

@@ -15,6 +15,7 @@ use crate::contact::enforcement::{EnforcementModel, Penalty};
 use crate::contact::facet_point::FacetPoint;
 use crate::contact::kinematics::KinematicsModel;
 use crate::contact::law::friction::{Coulomb, FrictionModel};
+use crate::contact::law::wear::{Archard, WearModel};
 use crate::contact::pairing::Previous;
 use crate::contact::response::{Laws, Status};
 use crate::contact::surface::{ContactPoint, Facet, connect};
@@ -226,12 +227,21 @@ fn facets_that_are_skipped_would_not_have_been_chosen() {
 
 #[test]
 fn the_tangent_is_that_of_the_force() {
-    for model in KinematicsModel::samples() {
-        for kind in [ElementKind::Tri3, ElementKind::Quad4, ElementKind::Quad8] {
+    // What is worn off over the increment at hand is in it.
+    let kinds = [ElementKind::Tri3, ElementKind::Quad4, ElementKind::Quad8];
+    let samples = KinematicsModel::samples().into_iter();
+    for (model, coefficient) in samples.flat_map(|model| [(model.clone(), 0.0), (model, 10.0)]) {
+        for kind in kinds {
             if model.as_dyn().triangles() && kind != ElementKind::Tri3 {
                 continue;
             }
             let mut interface = sample(kind, model.clone());
+            interface.definition.laws.wear = WearModel::Archard(Archard {
+                coefficient,
+                primary_coefficient: 0.0,
+                running_in: 0.0,
+                running_in_path: 0.0,
+            });
             let count = interface.dofs.count();
             let from = moved(&interface, 0.0, 1e-3);
             let mut at = moved(&interface, 1.0, 1e-3);
@@ -286,7 +296,10 @@ fn the_tangent_is_that_of_the_force() {
             });
             for (k, p) in product.iter().enumerate() {
                 let difference = (above[k] - below[k]) / (2.0 * h);
-                let what = format!("{} on {kind}, dof {k}: {p} {difference}", model.kind());
+                let what = format!(
+                    "{} on {kind}, wear {coefficient}, dof {k}: {p} {difference}",
+                    model.kind()
+                );
                 assert!((difference - p).abs() < 1e-5 * largest, "{what}");
             }
             // The stand-in changes nothing else.

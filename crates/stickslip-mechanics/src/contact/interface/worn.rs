@@ -7,8 +7,8 @@
 //! ([`Ground`](super::Ground)). What is lost on one side and the other is the volume that the laws say, to rounding, wherever one slides on the other.
 //!
 //! Within an increment the depth of both follows from the pressure of the point at its end, most often in proportion: a compliance in series with the contact
-//! ([`LawInput::worn`](crate::contact::response::LawInput::worn)). The path in it is that which the iterate slides, and its derivative is left out of the tangent: the
-//! solution does not depend on that, and the tangent stays as symmetric as it was.
+//! ([`LawInput::worn`](crate::contact::response::LawInput::worn)). The path in it is that which the iterate slides. Its derivative is in the tangent where there is
+//! friction; without friction it is left out, so that the tangent stays symmetric: the solution does not depend on that.
 
 use super::definition::InterfaceDefinition;
 use super::evaluation::{Evaluation, Evaluations};
@@ -122,7 +122,36 @@ pub(super) fn wearing(
         at.worn = worn;
         response = interface.laws.respond(stencil, at);
     }
+    deepen(interface, stencil, moved, at, &mut response);
     response
+}
+
+/// Adds that what is worn off grows with the path that a point slides, and that with slip and pressure. Where there is no friction the tangent is symmetric, and
+/// stays so.
+fn deepen(
+    interface: InterfaceInput,
+    stencil: &Stencil,
+    moved: Vec3,
+    at: &LawInput,
+    response: &mut Response,
+) {
+    let slope = response.d_gap[0][0];
+    let path = sliding_distance(interface.definition, response, stencil.frame_before, moved);
+    if slope == 0.0 || path <= 0.0 {
+        return;
+    }
+    let per_path = at.worn.depth(response.traction[0]) / path;
+    let [with_pressure, with_slip @ ..] = response.d_path.map(|d| per_path * d);
+    let settled = 1.0 / (1.0 - slope * with_pressure);
+    // Shear follows the pressure.
+    for (row, multipliers) in response.d_gap.iter_mut().zip(&mut response.d_multiplier) {
+        let [with_gap, with_slips @ ..] = row;
+        *with_gap *= settled;
+        multipliers[0] *= settled;
+        for (d, with_slip) in with_slips.iter_mut().zip(with_slip) {
+            *d += *with_gap * with_slip;
+        }
+    }
 }
 
 /// What a point wears off its own side and the other over an increment, per area that it stands for `[m]`. `pressed`: pressure times path by the

@@ -20,6 +20,9 @@
 //! Tied surfaces that keep a gap hand over the moment of that gap too. Small sliding leaves it out: forces are those of the reference configuration, where the gap is small, and a moment
 //! of displaced places is what it neglects. On an obstacle, which has no nodes, shear acts at the point alone.
 //!
+//! The slip has the same terms, so that shear works on the slip that friction dissipates on, also where the sides turn or bend each its own way: on a soft law
+//! the balance of energies was open by the distance between the sides times the angle between their turns, however short the increments.
+//!
 //! That the moment changes with the displacements is left out of the tangent: it is of the size of pressure over modulus, as is what else is left out there.
 
 use crate::math::{Mat3, Vec3, add, add_scaled, cross, dot, inverse, mat_vec, norm, scale, sub};

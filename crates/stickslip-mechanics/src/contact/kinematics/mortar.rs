@@ -173,11 +173,13 @@ impl MeanPoint<'_> {
         let turned = mat_vec(&own, normal_before);
         let mut gap = sums.gap * (per_area / length);
         let mut largest: f64 = 0.0;
-        let (mut moved, mut arm) = ([0.0; 3], [0.0; 3]);
+        // The distance of the two sides, at the last accepted state and now.
+        let (mut moved, mut arm, mut arm_now) = ([0.0; 3], [0.0; 3], [0.0; 3]);
         for (k, (&(node, w), part)) in nodes.iter().zip(&*parts).enumerate() {
             let x = self.x[node];
             moved = add_scaled(moved, w, sub(x, self.before[node]));
             arm = add_scaled(arm, w, self.before[node]);
+            arm_now = add_scaled(arm_now, w, x);
             largest = largest.max(dot(x, x));
             if self.carried.is_none() {
                 gap += dot(part.gradient, sub(x, self.reference[node]));
@@ -202,13 +204,18 @@ impl MeanPoint<'_> {
             };
             moment::remove(nodes, parts, self.x, axes, dim, &mut out.rows);
         }
-        remove_idle(all, first, parts, dim, out);
-        [moved, arm] = [moved, arm].map(|v| self.across.within(v));
+        let mut bent = [0.0; 2];
+        [moved, arm, arm_now] = [moved, arm, arm_now].map(|v| self.across.within(v));
         if self.carried.is_some() {
-            // The distance of the two sides turns with them, be it gap or what counts as none.
-            moved = turning::slid(sub(moved, turning::swung(&own, arm)), &own, &other);
+            // The distance turns with both, be it gap or what counts as none. Where the primary turns otherwise, shear, which has its moment on the primary, acts on
+            // the way of that, too.
+            let swings = turning::swung(&own, arm);
+            let apart = turning::swung_apart(&own, &other, arm_now);
+            moved = turning::slid(add(sub(moved, swings), apart), &own, &other);
+            bent = self.bent(&other, nodes, &along, &out.rows);
         }
-        out.slip = frame.map(|e| dot(e, moved));
+        remove_idle(all, first, parts, dim, out);
+        out.slip = std::array::from_fn(|t| dot(frame[t], moved) + bent[t]);
         if dim == 2 {
             out.slip[1] = 0.0;
         }
@@ -222,6 +229,28 @@ impl MeanPoint<'_> {
         out.frame_before = frame.map(|e| turning::back(&own, carried_over(e, normal, turned)));
         out.normal_before = normal_before;
         out.coordinate_scale = largest.sqrt();
+    }
+
+    /// The part that the moment of shear has in the slip, of nodes that do not turn as one: shear does work on it, so that slip without it would not be what
+    /// friction dissipates. `other` is the rotation of what lies opposite.
+    fn bent(
+        &self,
+        other: &Mat3,
+        nodes: &[(usize, f64)],
+        along: &[Vec3; 2],
+        rows: &[Vec<f64>; 3],
+    ) -> [f64; 2] {
+        let mut bent = [0.0; 2];
+        let turned = |node: usize| sub(self.x[node], mat_vec(other, self.before[node]));
+        for (k, &(node, w)) in nodes.iter().enumerate() {
+            let way = turned(node);
+            for (t, bent) in bent.iter_mut().enumerate().take(self.dim - 1) {
+                let row = &rows[t + 1][k * self.dim..(k + 1) * self.dim];
+                let moments = row.iter().zip(along[t]).map(|(r, e)| r - w * e);
+                *bent += moments.zip(way).map(|(m, x)| m * x).sum::<f64>();
+            }
+        }
+        bent
     }
 }
 

@@ -171,6 +171,11 @@ pub(super) fn swung(m: &Mat3, v: Vec3) -> Vec3 {
     sub(mat_vec(m, v), v)
 }
 
+/// `(a bᵀ - 1) v`
+pub(super) fn swung_apart(a: &Mat3, b: &Mat3, v: Vec3) -> Vec3 {
+    sub(mat_vec(a, back(b, v)), v)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -28,6 +28,8 @@ pub struct Face {
     pub area: f64,
     /// Whether the motion of each node that contact would change is prescribed in some step, or follows from that of others.
     pub held: Vec<bool>,
+    /// How deep behind it a place may lie and be met `[m]`: half of the body's thickness there, where its other side belongs to the surface, else infinite.
+    pub depth: f64,
     /// For each edge (3D) or end (2D), whether the surface goes smoothly on beyond it; [`Mortar::new`] finds out.
     pub continues: Vec<bool>,
 }

@@ -166,6 +166,7 @@ mod tests {
             areas: vec![0.5; 2],
             area: 1.0,
             held: held.to_vec(),
+            depth: f64::INFINITY,
             continues: Vec::new(),
         }
     }

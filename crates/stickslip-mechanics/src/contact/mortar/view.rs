@@ -165,23 +165,18 @@ pub(super) struct MetFacet<'a> {
 }
 
 impl View<'_> {
-    /// Whether a place has come behind a facet with normal `m` since the last accepted state: it was not beyond the wall then.
-    fn enters(
+    /// From what lies opposite to a place, at the last accepted state; `None` where that is not known.
+    fn apart_before(
         &self,
         wall: &Wall,
-        m: Vec3,
         n: &[f64; FACE_NODES],
         opposite: &[f64; FACE_NODES],
-    ) -> bool {
-        if wall.before.is_empty() {
-            return false;
-        }
+    ) -> Option<Vec3> {
         let at = |nodes: &[usize], n: &[f64; FACE_NODES]| {
             let terms = nodes.iter().zip(n);
             terms.fold([0.0; 3], |s, (&k, &n)| add_scaled(s, n, wall.before[k]))
         };
-        let (own, there) = (at(&self.face.nodes, n), at(wall.nodes, opposite));
-        dot(sub(own, there), m) >= -wall.depth
+        (!wall.before.is_empty()).then(|| sub(at(&self.face.nodes, n), at(wall.nodes, opposite)))
     }
 
     /// Unit normal at a place with these shape functions.
@@ -193,7 +188,7 @@ impl View<'_> {
         normalize(sum).unwrap_or(sum)
     }
 
-    /// Adds a quadrature point at `xi` of weight `w` in reference coordinates, if the facet is met there, and it is not beyond the `wall` behind it.
+    /// Adds a quadrature point at `xi` of weight `w` in reference coordinates, if the facet is met there, and neither lies beyond the other side of the other's body.
     pub fn sample(
         &self,
         xi: Point,
@@ -229,7 +224,13 @@ impl View<'_> {
         };
         let facing = -dot(normal, m);
         let (opposite, slopes) = shapes(facet.kind, *start);
-        let beyond = gap * facing < -wall.depth && !self.enters(wall, m, &n, &opposite);
+        // Beyond the other side of one of the bodies, unless it has come there within the increment.
+        let beyond = |height: f64, outward: Vec3, depth: f64| {
+            let before = || self.apart_before(wall, &n, &opposite);
+            height < -depth && before().is_none_or(|apart| dot(apart, outward) < -depth)
+        };
+        let beyond = beyond(gap * facing, m, wall.depth)
+            || beyond(gap, scale(-1.0, normal), self.face.depth);
         if facing < LEAST_FACING || beyond {
             return;
         }

@@ -33,6 +33,8 @@ pub struct Response {
     pub status: Status,
     /// Irreversible slip since the last accepted state `[m]`.
     pub sliding_path: [f64; 2],
+    /// By how much the length of that grows with the pressure `[m/Pa]` and with the slips `[-]`.
+    pub d_path: [f64; 3],
     /// The part of the pressure that damping adds `[Pa]`, negative while surfaces part.
     pub damping: f64,
 }

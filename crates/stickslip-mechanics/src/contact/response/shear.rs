@@ -59,6 +59,24 @@ fn sliding(limit: f64, motion: &Tangential) -> SlipState {
     }
 }
 
+/// By how much a sliding path gets longer with the pressure, of which the limit grows by `d_limit`, and with the slips. Of a rule with a `spring` the path is what
+/// the spring does not take.
+fn lengthens(shear: &SlipState, motion: &Tangential, d_limit: f64, spring: bool) -> [f64; 3] {
+    let length = motion.length(shear.sliding_path);
+    if length == 0.0 {
+        return [0.0; 3];
+    }
+    let yields = if spring { 1.0 / motion.stiffness } else { 0.0 };
+    let toward = motion.length_slope(shear.sliding_path, length);
+    let along = |way: [f64; 2]| toward[0] * way[0] + toward[1] * way[1];
+    let taken = |j: usize| along([0, 1].map(|i| yields * shear.d_slip[i][j]));
+    [
+        along(shear.d_limit.map(|d| yields * d * d_limit)),
+        toward[0] + taken(0),
+        toward[1] + taken(1),
+    ]
+}
+
 impl Laws {
     /// What a friction law is asked, of a point that has come this way.
     pub(super) fn friction_point(
@@ -121,6 +139,15 @@ impl Laws {
             motion.length_slope(motion.slip, path)
         } else {
             [0.0; 2]
+        };
+        response.d_path = match at.slip.path {
+            None => lengthens(
+                &shear,
+                &motion,
+                response.d_limit,
+                rule.sticks() || at.slip.sprung,
+            ),
+            Some(_) => [0.0; 3],
         };
         for i in 0..2 {
             let d_limit = shear.d_limit[i];

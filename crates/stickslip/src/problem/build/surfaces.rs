@@ -9,6 +9,7 @@ use crate::contact::crossing::crossing;
 use crate::contact::facet_point::evaluate;
 use crate::contact::mortar::{Face, Mortar, mean_weights, positive_areas};
 use crate::contact::surface::{ContactPoint, Facet};
+use crate::contact::walls::{depth_behind, depths};
 use crate::error::{Diagnostic, Error};
 use crate::math::{Vec3, add_scaled, cross, dot, norm, normalize, sub};
 use crate::mesh::{FacetRef, Mesh};
@@ -341,6 +342,13 @@ impl Surfaces<'_> {
         out
     }
 
+    /// How deep behind each face of a surface a place may lie and be met; empty where any depth will do.
+    fn depths(&self, faces: &[FacetRef]) -> Vec<f64> {
+        let mut numbering = Numbering::default();
+        let faces = self.facets(faces, &mut numbering);
+        depths(&faces, &self.coordinates(&numbering.nodes))
+    }
+
     /// One contact point a node and smooth part of the surface, and the faces that they are weighted over. Points of the mesh `without` one have no
     /// multiplier of their own: on each face their dual function goes to the nearest node that has one.
     pub(super) fn mortar(
@@ -358,6 +366,7 @@ impl Surfaces<'_> {
             .map(|b| normalize(b.normal).unwrap_or_default())
             .collect();
         let groups = FaceGroups::new(&shapes, &normals, angle);
+        let depths = self.depths(facets);
         let mut points: Vec<ContactPoint> = Vec::new();
         let mut known: BTreeMap<(usize, usize), usize> = BTreeMap::new();
         let mut faces = Vec::new();
@@ -375,6 +384,7 @@ impl Surfaces<'_> {
                 area: areas.iter().sum(),
                 held: vec![false; nodes.len()],
                 areas: areas.clone(),
+                depth: depth_behind(&depths, k),
                 continues: Vec::new(),
             };
             for (a, area) in areas.iter().enumerate() {
