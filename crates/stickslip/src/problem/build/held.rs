@@ -2,7 +2,7 @@
 //!
 //! A multiplier of contact changes a motion. Where a support prescribes that of a node, or a reference point or another tie does, the constraint of the node would act
 //! on whatever of the opposite surface is left to move, by a small weight and so with any force. Such nodes are marked here, once, for all interfaces: on faces of a mortar
-//! their neighbours take over (`contact/mortar/merge.rs`), of points at nodes that move as one only one is left, and where both sides are clamped nothing is left to be kept apart (`InterfaceDefinition::clamped`).
+//! their neighbours take over (`contact/mortar/merge.rs`), of points at nodes that move as one only one is left, and where both sides are clamped nothing is left to be kept apart (`InterfaceMesh::clamped`).
 
 use std::collections::{BTreeMap, BTreeSet};
 
