@@ -29,8 +29,8 @@ pub fn closing(analysis: &Analysis, directory: &Path, verbose: bool) {
             say(&line);
         }
     }
-    if s.mass_added > 0.0 {
-        let added = figure(100.0 * s.mass_added);
+    if s.explicit.mass_added > 0.0 {
+        let added = figure(100.0 * s.explicit.mass_added);
         say(&format!(
             "mass scaling added {added} % to the mass of the bodies"
         ));
@@ -50,17 +50,17 @@ pub fn closing(analysis: &Analysis, directory: &Path, verbose: bool) {
 }
 
 fn effort(s: &Summary) -> String {
-    let events = match s.events {
+    let events = match s.attempts.events {
         0 => String::new(),
         n => format!(", {n} halvings to locate events"),
     };
     format!(
         "{}: {} increments, {} iterations, {} cut-backs{events}, {:.2} s",
         paint(Look::Good, "done"),
-        s.increments,
-        s.iterations,
-        s.cutbacks,
-        s.phases.total
+        s.attempts.increments,
+        s.attempts.iterations,
+        s.attempts.cutbacks,
+        s.cost.phases.total
     )
 }
 
@@ -152,9 +152,12 @@ fn quality(gate: &Gate) -> String {
 /// What the solver did, and what its approximations cost.
 fn internals(analysis: &Analysis) -> Vec<String> {
     let s = analysis.summary;
-    let mut lines = vec![format!("  factorisations: {}", s.solver.factorisations)];
-    if !s.friction_solvers.is_empty() {
-        let each = s.friction_solvers.iter();
+    let mut lines = vec![format!(
+        "  factorisations: {}",
+        s.cost.solver.factorisations
+    )];
+    if !s.attempts.friction_solvers.is_empty() {
+        let each = s.attempts.friction_solvers.iter();
         let each: Vec<String> = each.map(|(name, n)| format!("{n} by {name}")).collect();
         lines.push(format!(
             "  solved as friction problems: {}",
@@ -162,16 +165,16 @@ fn internals(analysis: &Analysis) -> Vec<String> {
         ));
     }
     lines.push(phases(s));
-    if s.relative_to_linear > 0.0 {
+    if s.cost.relative_to_linear > 0.0 {
         lines.push(format!(
             "  without writing {:.2} times one assembly, factorisation and solution of the same bodies ({:.2} s)",
-            s.relative_to_linear, s.linear_solve
+            s.cost.relative_to_linear, s.cost.linear_solve
         ));
     }
     if analysis.model.moves() {
         lines.push(format!(
             "  energy: the balance is open by {:.1e} of the energies in play",
-            s.energy_quality.residual
+            s.balance.energy_quality.residual
         ));
     }
     for i in &s.interfaces {
@@ -192,7 +195,7 @@ fn internals(analysis: &Analysis) -> Vec<String> {
 }
 
 fn phases(s: &Summary) -> String {
-    let p = &s.phases;
+    let p = &s.cost.phases;
     format!(
         "  read {:.2}, assemble {:.2}, order {:.2}, factor {:.2}, condense {:.2}, iterate {:.2}, contact {:.2}, recover {:.2}, write {:.2} s; {:.2e} flops, {:.2} GB",
         p.read,
@@ -204,8 +207,8 @@ fn phases(s: &Summary) -> String {
         p.contact,
         p.recover,
         p.write,
-        s.solver.flops,
-        s.peak_memory as f64 / 1e9
+        s.cost.solver.factors.flops,
+        s.cost.peak_memory as f64 / 1e9
     )
 }
 

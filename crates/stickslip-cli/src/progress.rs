@@ -210,7 +210,7 @@ impl Observer for Progress {
 
 /// Whether a note says how the systems of equations are solved, and why so: `method-reason` of the summary has it as well.
 fn of_solver(analysis: &Analysis, note: &str) -> bool {
-    let reason = &analysis.summary.method_reason;
+    let reason = &analysis.summary.solved_by.method_reason;
     !reason.is_empty() && note.ends_with(reason.as_str())
 }
 

@@ -15,12 +15,8 @@ use crate::taken::Taken;
 /// A deck that was read. Names are in capitals, as both programs take them, unless they were quoted.
 #[derive(Debug, Clone, Default)]
 pub struct Deck {
-    /// The file and those it includes.
-    pub files: Vec<PathBuf>,
-    /// How the `.frd` file is written; `None` if nothing asks for one.
-    pub frd: Option<Encoding>,
-    /// The text of `*HEADING`, its first line.
-    pub title: Option<String>,
+    /// Which files are read and written.
+    pub output: FileOutput,
     /// How numbers of instances of parts become numbers of the deck.
     pub numbering: Numbering,
     /// Nodes by number.
@@ -33,24 +29,29 @@ pub struct Deck {
     pub element_sets: BTreeMap<String, Vec<u64>>,
     /// Surfaces.
     pub surfaces: BTreeMap<String, Surface>,
-    /// Materials.
-    pub materials: BTreeMap<String, Material>,
-    /// `*SOLID SECTION`s.
-    pub sections: Vec<Section>,
-    /// `*ORIENTATION`s.
-    pub orientations: BTreeMap<String, Orientation>,
-    /// `*DISTRIBUTION`s.
-    pub distributions: BTreeMap<String, Distribution>,
-    /// `*TRANSFORM`s by node; the last card counts.
-    pub transforms: BTreeMap<u64, Transform>,
-    /// `*AMPLITUDE`s.
-    pub amplitudes: BTreeMap<String, Amplitude>,
-    /// `*SURFACE INTERACTION`s.
-    pub interactions: BTreeMap<String, Interaction>,
-    /// `*CONTACT PAIR`s.
-    pub pairs: Vec<Pair>,
-    /// `*CLEARANCE`s.
-    pub clearances: Vec<Clearance>,
+    /// What elements are made of, and along which axes.
+    pub properties: Properties,
+    /// Functions and points of time.
+    pub tables: TimeTables,
+    /// What touches.
+    pub contact: ContactCards,
+    /// What joins nodes and surfaces, and what hangs on them.
+    pub connectors: Connectors,
+    /// How the analysis begins.
+    pub start: StartCards,
+    /// `*BOUNDARY` before the first step, which acts as if it stood in that.
+    pub supports: Vec<Boundary>,
+    /// The steps.
+    pub steps: Vec<Step>,
+    /// Warnings and notes, in the order of the lines.
+    pub notes: Vec<Finding>,
+    /// Names that nothing uses.
+    pub(crate) unused: Vec<(Place, String)>,
+}
+
+/// What joins nodes and surfaces, and what hangs on them.
+#[derive(Debug, Clone, Default)]
+pub struct Connectors {
     /// `*TIE`s.
     pub ties: Vec<Tie>,
     /// `*EQUATION`s.
@@ -71,26 +72,67 @@ pub struct Deck {
     pub gaps: Vec<GapSection>,
     /// `*MASS`es: mass of sets of mass elements, each `(set, mass, place)`.
     pub masses: Vec<(String, f64, Place)>,
+}
+
+/// What touches, and with which laws.
+#[derive(Debug, Clone, Default)]
+pub struct ContactCards {
+    /// `*SURFACE INTERACTION`s.
+    pub interactions: BTreeMap<String, Interaction>,
+    /// `*CONTACT PAIR`s.
+    pub pairs: Vec<Pair>,
+    /// `*CLEARANCE`s.
+    pub clearances: Vec<Clearance>,
+}
+
+/// What elements are made of, and along which axes.
+#[derive(Debug, Clone, Default)]
+pub struct Properties {
+    /// Materials.
+    pub materials: BTreeMap<String, Material>,
+    /// `*SOLID SECTION`s.
+    pub sections: Vec<Section>,
+    /// `*ORIENTATION`s.
+    pub orientations: BTreeMap<String, Orientation>,
+    /// `*DISTRIBUTION`s.
+    pub distributions: BTreeMap<String, Distribution>,
+    /// `*TRANSFORM`s by node; the last card counts.
+    pub transforms: BTreeMap<u64, Transform>,
+}
+
+/// How the analysis begins.
+#[derive(Debug, Clone, Default)]
+pub struct StartCards {
     /// `*INITIAL CONDITIONS`.
     pub initial: Vec<InitialCondition>,
     /// `*INITIAL CONDITIONS` of temperature, in the order of the deck: the last counts at a node.
     pub temperatures: Vec<Temperature>,
+}
+
+/// Functions and points of time, by name.
+#[derive(Debug, Clone, Default)]
+pub struct TimeTables {
+    /// `*AMPLITUDE`s.
+    pub amplitudes: BTreeMap<String, Amplitude>,
     /// `*TIME POINTS` by name.
     pub time_points: BTreeMap<String, TimePoints>,
-    /// `*BOUNDARY` before the first step, which acts as if it stood in that.
-    pub supports: Vec<Boundary>,
-    /// The steps.
-    pub steps: Vec<Step>,
-    /// Warnings and notes, in the order of the lines.
-    pub notes: Vec<Finding>,
-    /// Names that nothing uses.
-    pub(crate) unused: Vec<(Place, String)>,
+}
+
+/// The files that a deck is read from, and what is written.
+#[derive(Debug, Clone, Default)]
+pub struct FileOutput {
+    /// The file and those it includes.
+    pub files: Vec<PathBuf>,
+    /// How the `.frd` file is written; `None` if nothing asks for one.
+    pub frd: Option<Encoding>,
+    /// The text of `*HEADING`, its first line.
+    pub title: Option<String>,
 }
 
 impl Deck {
     /// The pretension whose shortening is the first direction of a node.
     pub fn pretension(&self, node: u64) -> Option<&Pretension> {
-        self.pretensions.iter().find(|p| p.node == node)
+        self.connectors.pretensions.iter().find(|p| p.node == node)
     }
 
     /// A number of a node or element as the deck writes it: `PART-1-1.12` in an instance.

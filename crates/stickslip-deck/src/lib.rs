@@ -54,4 +54,4 @@ pub use finding::{DeckError, Finding, Severity};
 pub use numbering::Numbering;
 pub use print::Printer;
 pub use status::Status;
-pub use translate::{Translation, read_mesh};
+pub use translate::{PrintPlan, Translation, read_mesh};

@@ -16,9 +16,8 @@ use stickslip::results::{Analysis, Event, Observer};
 
 use crate::deck::{Print, Totals, When};
 use crate::fortran::{row, time};
-use crate::numbering::Numbering;
 use crate::section;
-use crate::translate::Translation;
+use crate::translate::{PrintPlan, Translation};
 
 /// Writes the `.dat` file of a deck while it runs: what an increment prints is in the file when its fields are.
 #[derive(Debug)]
@@ -26,22 +25,9 @@ pub struct Printer {
     path: PathBuf,
     /// Made by the first thing that is to be in it, or to be read from it.
     file: Option<Growing>,
-    prints: Vec<Vec<Print>>,
-    node_sets: BTreeMap<String, Vec<u64>>,
-    element_sets: BTreeMap<String, Vec<u64>>,
-    surfaces: BTreeMap<String, Vec<(u64, usize)>>,
-    pairs: Vec<(String, String, String)>,
-    /// Names of pretensions by their nodes.
-    drawn: BTreeMap<u64, String>,
+    plan: PrintPlan,
     /// The nodes of the deck that are points of its mesh.
     known: BTreeSet<u64>,
-    references: BTreeMap<u64, (String, bool)>,
-    numbering: Numbering,
-    /// Times of `*TIME POINTS` in the time of the analysis.
-    times: BTreeMap<String, Vec<f64>>,
-    /// Local axes of nodes and elements; rows are the axes.
-    node_axes: BTreeMap<u64, [Vec3; 3]>,
-    element_axes: BTreeMap<u64, [Vec3; 3]>,
     /// Point by node, found at the first output.
     points: BTreeMap<u64, usize>,
     step: usize,
@@ -118,24 +104,15 @@ impl Printer {
     /// A printer for a deck, or none if the deck prints nothing.
     pub fn new(translation: &Translation, path: &Path) -> Option<Self> {
         translation
+            .plan
             .prints
             .iter()
             .any(|p| !p.is_empty())
             .then(|| Printer {
                 path: path.to_path_buf(),
                 file: None,
-                prints: translation.prints.clone(),
-                node_sets: translation.node_sets.clone(),
-                element_sets: translation.element_sets.clone(),
-                surfaces: translation.surfaces.clone(),
-                pairs: translation.pairs.clone(),
-                drawn: translation.drawn.clone(),
+                plan: translation.plan.clone(),
                 known: translation.mesh.point_ids.iter().copied().collect(),
-                references: translation.references.clone(),
-                numbering: translation.numbering.clone(),
-                times: translation.times.clone(),
-                node_axes: translation.node_axes.clone(),
-                element_axes: translation.element_axes.clone(),
                 points: BTreeMap::new(),
                 step: 0,
                 increment: 0,
@@ -170,7 +147,11 @@ impl Printer {
         self.last
             || match when {
                 When::Every(n) => self.increment.is_multiple_of((*n).max(1)),
-                When::Times(name) => self.times.get(name).is_some_and(|t| t.iter().any(near)),
+                When::Times(name) => self
+                    .plan
+                    .times
+                    .get(name)
+                    .is_some_and(|t| t.iter().any(near)),
             }
     }
 
@@ -184,7 +165,7 @@ impl Printer {
             self.points = ids.iter().enumerate().map(|(i, id)| (*id, i)).collect();
             // Numbers of points that cuts have doubled are none of the deck.
             self.points.retain(|id, _| self.known.contains(id));
-            for (node, (name, turned)) in &self.references {
+            for (node, (name, turned)) in &self.plan.references {
                 let mut all = analysis.model.references.iter();
                 if let Some(reference) = all.find(|r| r.name == *name) {
                     let hidden = analysis.model.links.all()[reference.link].hidden;
@@ -192,7 +173,7 @@ impl Printer {
                 }
             }
         }
-        let Some(prints) = self.prints.get(self.step - 1).cloned() else {
+        let Some(prints) = self.plan.prints.get(self.step - 1).cloned() else {
             return Ok(());
         };
         let mut out = String::new();
@@ -217,7 +198,11 @@ impl Printer {
                     self.elements(analysis, &mut out, set, keys, *totals, *global);
                 }
                 Print::Section { surface, when } if self.due(when) => {
-                    let faces = self.surfaces.get(surface).map_or(&[][..], Vec::as_slice);
+                    let faces = self
+                        .plan
+                        .surfaces
+                        .get(surface)
+                        .map_or(&[][..], Vec::as_slice);
                     section::print(analysis, &mut out, surface, faces, self.time);
                 }
                 Print::Contact {
@@ -262,13 +247,13 @@ impl Printer {
         global: bool,
     ) {
         let dofs = analysis.model.dofs;
-        let Some(nodes) = self.node_sets.get(set) else {
+        let Some(nodes) = self.plan.node_sets.get(set) else {
             return;
         };
         let u = &analysis.frame.state.u;
         // The first direction of the node of a pretension is the shortening, its force that of the bolt.
         let drawn = |node: &u64, key: &str| {
-            let name = self.drawn.get(node)?;
+            let name = self.plan.drawn.get(node)?;
             let mut all = analysis.couplings().report(u);
             let (_, force, shortening) = all.find(|(n, ..)| n == name)?;
             let value = match key {
@@ -289,7 +274,7 @@ impl Printer {
         for key in keys {
             if key.starts_with("NT") {
                 let of = |t: f64| {
-                    let heat = analysis.model.heat.as_ref();
+                    let heat = analysis.model.actions.heat.as_ref();
                     heat.map(|h| h.temperatures.at(t))
                 };
                 let all = of(analysis.frame.state.t);
@@ -332,7 +317,7 @@ impl Printer {
                 };
                 // Nodes may have different axes: a sum has those of the model.
                 sum = add(sum, v);
-                if let Some(axes) = self.node_axes.get(node).filter(|_| !global) {
+                if let Some(axes) = self.plan.node_axes.get(node).filter(|_| !global) {
                     v = axes.map(|axis| dot(axis, v));
                 }
                 if totals != Totals::Only {
@@ -359,7 +344,7 @@ impl Printer {
         totals: Totals,
         global: bool,
     ) {
-        let Some(elements) = self.element_sets.get(set) else {
+        let Some(elements) = self.plan.element_sets.get(set) else {
             return;
         };
         let model = analysis.model;
@@ -383,7 +368,7 @@ impl Printer {
                     };
                     out.push_str(&title(what));
                     for (id, cell) in elements.iter().filter_map(|id| Some((id, by_id.get(id)?))) {
-                        let axes = self.element_axes.get(id).filter(|_| !global);
+                        let axes = self.plan.element_axes.get(id).filter(|_| !global);
                         tensors(out, &self.label(*id), cell, key, axes);
                     }
                 }
@@ -433,10 +418,11 @@ impl Printer {
     ) {
         let of_pair = |i: &ContactView| match pair {
             Some((slave, master)) => self
+                .plan
                 .pairs
                 .iter()
                 .any(|(name, s, m)| *name == i.name && s == slave && m == master),
-            None => self.pairs.iter().any(|(name, ..)| *name == i.name),
+            None => self.plan.pairs.iter().any(|(name, ..)| *name == i.name),
         };
         let interfaces = || analysis.contacts().filter(of_pair);
         let all = |what: &str| {
@@ -484,7 +470,11 @@ impl Printer {
                 }
                 "CF" | "CFN" | "CFS" => {
                     for interface in interfaces() {
-                        let named = self.pairs.iter().find(|(name, ..)| *name == interface.name);
+                        let named = self
+                            .plan
+                            .pairs
+                            .iter()
+                            .find(|(name, ..)| *name == interface.name);
                         let Some((_, slave, master)) = named else {
                             continue;
                         };
@@ -544,7 +534,7 @@ impl Printer {
 
     /// The number of a node or element, as the deck writes it, in its column.
     fn label(&self, number: u64) -> String {
-        format!("{:>10}", self.numbering.label(number))
+        format!("{:>10}", self.plan.numbering.label(number))
     }
 }
 

@@ -8,7 +8,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 use stickslip::Error;
-use stickslip::contact::interface::set_user_laws;
+use stickslip::contact::interface::with_user_laws;
 use stickslip::mesh::Mesh as Points;
 use stickslip::model::{Contact, Setup};
 use stickslip::newton::condensed::Library;
@@ -428,7 +428,7 @@ fn bring(contact: &mut Contact, laws: Functions, raised: &Raised) -> PyResult<()
         // Two-sided contact is two interfaces of one name.
         for interface in contact.interfaces.iter_mut().filter(|i| i.name == name) {
             found = true;
-            set_user_laws(
+            interface.definition = with_user_laws(
                 interface,
                 normal.clone().map(|f| f as _),
                 friction.clone().map(|f| f as _),

@@ -12,10 +12,13 @@
 //! norm of the contact forces. Times are the least of several runs.
 
 use std::hint::black_box;
+use std::sync::Arc;
 use std::time::Instant;
 
 use stickslip::contact::enforcement::{EnforcementModel, Penalty};
-use stickslip::contact::interface::{History, Initial, Interface, InterfaceDefinition, Primary};
+use stickslip::contact::interface::{
+    Conditions, History, Initial, Interface, InterfaceDefinition, InterfaceMesh, Primary,
+};
 use stickslip::contact::kinematics::{Convective, KinematicsModel, Pop1995, SmallSliding};
 use stickslip::contact::law::friction::{Coulomb, FrictionModel};
 use stickslip::contact::response::Laws;
@@ -140,34 +143,36 @@ fn interface(
     assert_eq!(first + points.len(), reference.len());
     Interface::new(InterfaceDefinition {
         name: "joint".into(),
-        dofs: Dofs {
-            dim,
-            points: reference.len(),
-        },
-        nodes: (0..reference.len()).collect(),
-        node_ids: (0..reference.len() as u64).collect(),
-        reference,
-        neighbours: Vec::new(),
-        skin: Vec::new(),
-        primary_nodes: 0,
-        points,
-        mortar: None,
-        hollows: Default::default(),
-        walls: Default::default(),
-        clamped: Vec::new(),
+        mesh: Arc::new(InterfaceMesh {
+            dofs: Dofs {
+                dim,
+                points: reference.len(),
+            },
+            nodes: (0..reference.len()).collect(),
+            node_ids: (0..reference.len() as u64).collect(),
+            reference,
+            neighbours: Vec::new(),
+            skin: Vec::new(),
+            primary_nodes: 0,
+            points,
+            mortar: None,
+            hollows: Default::default(),
+            walls: Default::default(),
+            clamped: Vec::new(),
+            primary: Primary::Facets(facets),
+            edge_tolerance: 1e-3,
+            origin: [0.0; 3],
+            relief: Vec::new(),
+        }),
         share: 1.0,
         exchanged: false,
-        primary: Primary::Facets(facets),
         laws,
         kinematics,
         belt: Vec::new(),
         schedule: Schedule::always(),
         frames: Default::default(),
         turns: false,
-        edge_tolerance: 1e-3,
-        origin: [0.0; 3],
         initial: Initial::default(),
-        relief: Vec::new(),
     })
 }
 
@@ -222,7 +227,8 @@ fn measure(name: &str, kind: ElementKind, bent: bool, kinematics: KinematicsMode
         frames: None,
     };
     let history = History::new(interface.points.len());
-    let mut interface = interface.force(&history);
+    let conditions = Conditions::default();
+    let mut interface = interface.force(&history, &conditions);
     let mut out = Assembler::new(interface.dofs.count());
     interface.begin();
     let mut searched = f64::INFINITY;

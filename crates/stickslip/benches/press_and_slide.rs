@@ -25,19 +25,19 @@ fn run(case: &str, n: usize) -> Result<(), stickslip::Error> {
     println!(
         "{case:<22} N {n:>3} {:>7} dofs {:>3} its {:>3} factors {:>4} krylov | assemble {:.2} order {:.2} factor {:.2} condense {:.2} iterate {:.2} contact {:.2} recover {:.2} total {:.2} s = {:.2} linear solves of {:.2} s",
         s.size.dofs,
-        s.solver.iterations,
-        s.solver.factorisations,
-        s.solver.krylov,
-        s.phases.assemble,
-        s.phases.order,
-        s.phases.factor,
-        s.phases.condense,
-        s.phases.iterate,
-        s.phases.contact,
-        s.phases.recover,
-        s.phases.total,
-        s.relative_to_linear,
-        s.linear_solve
+        s.cost.solver.iterations,
+        s.cost.solver.factorisations,
+        s.cost.solver.krylov,
+        s.cost.phases.assemble,
+        s.cost.phases.order,
+        s.cost.phases.factor,
+        s.cost.phases.condense,
+        s.cost.phases.iterate,
+        s.cost.phases.contact,
+        s.cost.phases.recover,
+        s.cost.phases.total,
+        s.cost.relative_to_linear,
+        s.cost.linear_solve
     );
     Ok(())
 }

@@ -18,30 +18,8 @@ pub struct Arguments {
     /// The file to write, ending with .png or .svg; `plot.png`, `INTERFACE.png` or `history.png` in the folder if not given. With --along also .csv, a table.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// The field in colour, as ParaView lists it, or a component: CPRESS, CSTATUS, MISES, U, U1, S11. The contact pressure if not
-    /// given, or the von Mises stress where nothing touches.
-    #[arg(long, value_name = "NAME", value_parser = Words(fields), hide_possible_values = true)]
-    field: Option<String>,
-    /// Which of the times at which fields were written: `peak`, at which contact presses most, `last`, a number from 1, or `all`, a file each.
-    #[arg(long, value_name = "peak|last|N|all", default_value = "peak", value_parser = when)]
-    time: When,
-    /// Factor of the displacements; with `auto` 1 where a field of contact is shown, elsewhere the largest is about a twentieth of the model, or less where
-    /// that would open or close gaps.
-    #[arg(long, value_name = "auto|X", default_value = "auto", value_parser = scale)]
-    scale: Scale,
-    /// From where one looks: iso, x, y, z, -x, -y, -z. Plane models are seen from z.
-    #[arg(long, value_name = "VIEW", allow_hyphen_values = true, value_parser = view)]
-    view: Option<View>,
-    /// Draw this body only; may be repeated.
-    #[arg(long, value_name = "NAME")]
-    body: Vec<String>,
-    /// Which part is seen: `contact`, the patch that presses, `whole`, or how many times nearer. With `auto` the patch, if it is small and a field of contact
-    /// is shown.
-    #[arg(long, value_name = "auto|contact|whole|X", default_value = "auto", value_parser = zoom)]
-    zoom: Zoom,
-    /// What is in the middle of the picture.
-    #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = place)]
-    at: Option<Place>,
+    #[command(flatten)]
+    framing: Framing,
     /// Draw what this interface carries along its surface: in a plane pressure, shear and status over the arc, in space maps of them, in plan or unrolled. With --field that
     /// field alone, in a plane, with --time all a line a time; of CWEAR and CDISS that of the surface opposite as well, in a file of its own (NAME-opposite.svg).
     #[arg(long, value_name = "INTERFACE", conflicts_with_all = ["view", "body", "at", "arrows", "cut", "mirror", "history"])]
@@ -87,6 +65,35 @@ pub struct Arguments {
         requires = "history"
     )]
     against: String,
+}
+
+/// What is seen, and from where.
+#[derive(Debug, clap::Args)]
+struct Framing {
+    /// The field in colour, as ParaView lists it, or a component: CPRESS, CSTATUS, MISES, U, U1, S11. The contact pressure if not
+    /// given, or the von Mises stress where nothing touches.
+    #[arg(long, value_name = "NAME", value_parser = Words(fields), hide_possible_values = true)]
+    field: Option<String>,
+    /// Which of the times at which fields were written: `peak`, at which contact presses most, `last`, a number from 1, or `all`, a file each.
+    #[arg(long, value_name = "peak|last|N|all", default_value = "peak", value_parser = when)]
+    time: When,
+    /// Factor of the displacements; with `auto` 1 where a field of contact is shown, elsewhere the largest is about a twentieth of the model, or less where
+    /// that would open or close gaps.
+    #[arg(long, value_name = "auto|X", default_value = "auto", value_parser = scale)]
+    scale: Scale,
+    /// From where one looks: iso, x, y, z, -x, -y, -z. Plane models are seen from z.
+    #[arg(long, value_name = "VIEW", allow_hyphen_values = true, value_parser = view)]
+    view: Option<View>,
+    /// Draw this body only; may be repeated.
+    #[arg(long, value_name = "NAME")]
+    body: Vec<String>,
+    /// Which part is seen: `contact`, the patch that presses, `whole`, or how many times nearer. With `auto` the patch, if it is small and a field of contact
+    /// is shown.
+    #[arg(long, value_name = "auto|contact|whole|X", default_value = "auto", value_parser = zoom)]
+    zoom: Zoom,
+    /// What is in the middle of the picture.
+    #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = place)]
+    at: Option<Place>,
 }
 
 /// Fields that results mostly have, for completions.
@@ -229,9 +236,9 @@ pub fn draw(arguments: &Arguments) -> Result<(Vec<PathBuf>, Vec<String>), Failur
     {
         let wanted = Along {
             interface: interface.clone(),
-            field: arguments.field.clone(),
-            when: arguments.time,
-            zoom: arguments.zoom,
+            field: arguments.framing.field.clone(),
+            when: arguments.framing.time,
+            zoom: arguments.framing.zoom,
             size: arguments.size,
             units: arguments.units.clone(),
         };
@@ -240,14 +247,14 @@ pub fn draw(arguments: &Arguments) -> Result<(Vec<PathBuf>, Vec<String>), Failur
     }
     if arguments.history.is_empty() {
         let picture = Picture {
-            field: arguments.field.clone(),
-            when: arguments.time,
-            scale: arguments.scale.0,
-            view: arguments.view,
-            bodies: arguments.body.clone(),
+            field: arguments.framing.field.clone(),
+            when: arguments.framing.time,
+            scale: arguments.framing.scale.0,
+            view: arguments.framing.view,
+            bodies: arguments.framing.body.clone(),
             size: arguments.size,
-            zoom: arguments.zoom,
-            at: arguments.at.map(|at| at.0),
+            zoom: arguments.framing.zoom,
+            at: arguments.framing.at.map(|at| at.0),
             arrows: arguments.arrows,
             cut: arguments.cut,
             mirror: arguments.mirror,

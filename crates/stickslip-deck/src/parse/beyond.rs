@@ -11,18 +11,20 @@ use crate::table;
 impl Reader<'_> {
     /// Whether nothing has been said against the deck so far.
     pub(super) fn sound(&self) -> bool {
-        self.errors.is_empty() && self.beyond.is_empty()
+        self.messages.errors.is_empty() && self.messages.beyond.is_empty()
     }
 
     /// A card of a kind that is not computed.
     pub(super) fn card_beyond(&mut self, card: &Card, help: &'static str) {
         let kind = table::kind_of_card(&card.keyword, help);
         // The table has each keyword once, however it is written.
-        let what = match self.written.get(&card.keyword) {
+        let what = match self.messages.written.get(&card.keyword) {
             Some(first) => first.clone(),
             None => card.written.clone(),
         };
-        self.written.insert(card.keyword.clone(), what.clone());
+        self.messages
+            .written
+            .insert(card.keyword.clone(), what.clone());
         self.count_beyond(kind, what, 1, card.place, help);
     }
 
@@ -46,7 +48,7 @@ impl Reader<'_> {
     /// Whether there are things of the kind that elements of a type are.
     pub(super) fn has_beyond(&self, what: &'static str) -> bool {
         let kind = kind_of_elements(what);
-        kind.is_some() && self.beyond.iter().any(|b| b.kind == kind)
+        kind.is_some() && self.messages.beyond.iter().any(|b| b.kind == kind)
     }
 
     fn count_beyond(
@@ -64,8 +66,8 @@ impl Reader<'_> {
             Some(_) => b.kind == kind,
             None => b.kind.is_none() && b.counts.iter().any(|c| c.0 == what),
         };
-        let Some(known) = self.beyond.iter_mut().find(same) else {
-            self.beyond.push(Beyond {
+        let Some(known) = self.messages.beyond.iter_mut().find(same) else {
+            self.messages.beyond.push(Beyond {
                 kind,
                 counts: vec![(what, n)],
                 place,
@@ -85,21 +87,29 @@ impl Reader<'_> {
     /// All that is wrong: what is not computed, if there is such, with what is misspelt whatever else there is; otherwise every error.
     pub(super) fn verdict(mut self) -> Vec<Finding> {
         self.sort_errors();
-        if self.beyond.is_empty() {
-            return self.errors;
+        if self.messages.beyond.is_empty() {
+            return self.messages.errors;
         }
         let mut findings: Vec<Finding> = Vec::new();
-        self.beyond.sort_by_key(|b| (b.place.file, b.place.line));
-        for b in &self.beyond {
+        self.messages
+            .beyond
+            .sort_by_key(|b| (b.place.file, b.place.line));
+        for b in &self.messages.beyond {
             findings.push(self.finding(Severity::Error, b.place, b.message(), b.help));
         }
-        let misspelt: BTreeSet<_> = self.formal.iter().map(|p| (p.file, p.line)).collect();
+        let misspelt: BTreeSet<_> = self
+            .messages
+            .formal
+            .iter()
+            .map(|p| (p.file, p.line))
+            .collect();
         let files = &self.source.files;
         let own = |f: &Finding| {
             let file = files.iter().position(|p| *p == f.file).unwrap_or_default();
             misspelt.contains(&(file, f.line))
         };
-        let (kept, left): (Vec<Finding>, Vec<Finding>) = self.errors.drain(..).partition(own);
+        let (kept, left): (Vec<Finding>, Vec<Finding>) =
+            self.messages.errors.drain(..).partition(own);
         findings.extend(kept);
         if !left.is_empty() {
             let message = format!(

@@ -21,9 +21,9 @@ impl Reader<'_> {
         let Some(reference) = self.single_node(card, "REFNODE") else {
             return;
         };
-        let count = self.deck.couplings.len() + 1;
+        let count = self.deck.connectors.couplings.len() + 1;
         let name = card.get("CONSTRAINTNAME");
-        self.deck.couplings.push(NodeCoupling {
+        self.deck.connectors.couplings.push(NodeCoupling {
             name: name.map_or_else(|| format!("COUPLING-{count}"), str::to_string),
             reference,
             tied: Tied::Surface(surface),
@@ -53,7 +53,7 @@ impl Reader<'_> {
             };
             components[range].fill(true);
         }
-        let last = self.deck.couplings.last_mut();
+        let last = self.deck.connectors.couplings.last_mut();
         match last.filter(|c| c.way.is_none()) {
             Some(coupling) => {
                 coupling.way = Some(way);
@@ -105,8 +105,8 @@ impl Reader<'_> {
             };
             let mut components = [false; 6];
             components[range].fill(true);
-            self.deck.couplings.push(NodeCoupling {
-                name: format!("COUPLING-{}", self.deck.couplings.len() + 1),
+            self.deck.connectors.couplings.push(NodeCoupling {
+                name: format!("COUPLING-{}", self.deck.connectors.couplings.len() + 1),
                 reference,
                 tied: Tied::Nodes(vec![(target, 1.0)]),
                 way: Some(Way::Kinematic),
@@ -149,7 +149,7 @@ impl Reader<'_> {
             }
             nodes.push((target, weight));
         }
-        self.deck.couplings.push(NodeCoupling {
+        self.deck.connectors.couplings.push(NodeCoupling {
             name: set,
             reference,
             tied: Tied::Nodes(nodes),
@@ -188,7 +188,7 @@ impl Reader<'_> {
                 }
             }
             if goes_on {
-                match self.deck.constraints.last_mut() {
+                match self.deck.connectors.constraints.last_mut() {
                     Some(last) if last.place.line >= card.place.line => last.nodes.extend(nodes),
                     _ => self.error(
                         data.place,
@@ -209,7 +209,7 @@ impl Reader<'_> {
                 );
                 continue;
             }
-            self.deck.constraints.push(MultiPoint {
+            self.deck.connectors.constraints.push(MultiPoint {
                 kind: first,
                 nodes,
                 place: data.place,

@@ -44,7 +44,7 @@ impl Reader<'_> {
     /// Lines and faces without a section bound the cells beside them, and are there for their sets: Gmsh writes them. Without such cells,
     /// or with a section, they are meant to be computed.
     pub(super) fn judge_bounding(&mut self) {
-        let bounding: Vec<_> = self.bounding.drain(..).collect();
+        let bounding: Vec<_> = self.sets.bounding.drain(..).collect();
         for (kind, place) in bounding {
             let flat = kind.starts_with("T") || kind.starts_with("B");
             let unsupported = abaqus::element_type(&kind).err();
@@ -52,7 +52,7 @@ impl Reader<'_> {
                 abaqus::element_type(&e.kind).is_ok_and(|t| flat || t.space == abaqus::Space::Solid)
             });
             let deck = &self.deck;
-            let sectioned = deck.sections.iter().any(|s| {
+            let sectioned = deck.properties.sections.iter().any(|s| {
                 let mut all = deck.element_sets.get(&s.set).into_iter().flatten();
                 all.any(|e| deck.elements.get(e).is_some_and(|e| e.kind == kind))
             });
@@ -78,8 +78,8 @@ impl Reader<'_> {
                 Some(t.kind.node_count())
             }
             (None, Err(_)) if bounding(kind).is_some() => {
-                if !self.bounding.iter().any(|(k, _)| *k == kind) {
-                    self.bounding.push((kind.to_string(), card.place));
+                if !self.sets.bounding.iter().any(|(k, _)| *k == kind) {
+                    self.sets.bounding.push((kind.to_string(), card.place));
                 }
                 bounding(kind)
             }
@@ -91,9 +91,9 @@ impl Reader<'_> {
                 self.elements_beyond(kind, count, why.what, why.help, card.place);
                 let ids = card.data.iter().filter_map(|d| whole(d.fields.first()?));
                 let ids = ids.map(|n| self.deck.numbering.of(self.scope, n));
-                self.skipped.extend(ids);
+                self.sets.skipped.extend(ids);
                 let set = card.get("ELSET").map(|s| self.scoped(s));
-                self.skipped_sets.extend(set);
+                self.sets.skipped_sets.extend(set);
                 None
             }
         }
@@ -107,7 +107,7 @@ impl Reader<'_> {
             .iter()
             .any(|n| !self.deck.nodes.contains_key(n))
         {
-            self.waiting.push((id, place));
+            self.sets.waiting.push((id, place));
         }
         if self.deck.elements.insert(id, element).is_some() {
             self.error(
@@ -121,14 +121,14 @@ impl Reader<'_> {
     /// Elements whose nodes have not come.
     pub(super) fn judge_waiting(&mut self) {
         let mut said = BTreeSet::new();
-        let waiting: Vec<_> = self.waiting.drain(..).collect();
+        let waiting: Vec<_> = self.sets.waiting.drain(..).collect();
         for (id, place) in waiting {
             let absent = |n: &&u64| !self.deck.nodes.contains_key(n);
             let Some(n) = self.deck.elements[&id].nodes.iter().find(absent) else {
                 continue;
             };
             // What a line lacks it lacks in each instance; and nodes that could not be read are missed for that.
-            if self.unread || !said.insert((place.file, place.line)) {
+            if self.messages.unread || !said.insert((place.file, place.line)) {
                 continue;
             }
             let (id, n) = (self.deck.label(id), self.deck.label(*n));
@@ -211,7 +211,7 @@ impl Reader<'_> {
 
     /// Whether an element has the face; it is an error if not.
     pub(super) fn has_face(&mut self, element: u64, face: usize, place: Place) -> bool {
-        if self.reflected.contains(&element) {
+        if self.sets.reflected.contains(&element) {
             let label = self.deck.label(element);
             let message = format!(
                 "a face of element {label}, which *ELCOPY, REFLECT has made, is named by its number"

@@ -153,7 +153,7 @@ impl Reader<'_> {
     pub(super) fn elements_named(&mut self, text: &str, name: &str, place: Place) -> Vec<u64> {
         match self.number_of(text) {
             Some(n) if self.deck.elements.contains_key(&n) => vec![n],
-            Some(n) if self.skipped.contains(&n) => Vec::new(),
+            Some(n) if self.sets.skipped.contains(&n) => Vec::new(),
             Some(n) => {
                 self.error(
                     place,
@@ -164,7 +164,7 @@ impl Reader<'_> {
             }
             None => match self.deck.element_sets.get(name) {
                 Some(set) => set.clone(),
-                None if self.skipped_sets.contains(name) => Vec::new(),
+                None if self.sets.skipped_sets.contains(name) => Vec::new(),
                 None => {
                     let known = self.deck.element_sets.keys();
                     let (message, help) =

@@ -313,7 +313,7 @@ impl Reader<'_> {
             Nodes::One(n) => vec![n],
             Nodes::Set(name) => {
                 let nodes = self.deck.node_sets[&name].clone();
-                if self.unsorted.contains(&name) {
+                if self.sets.unsorted.contains(&name) {
                     return Some(nodes);
                 }
                 nodes
@@ -368,11 +368,11 @@ impl Reader<'_> {
             self.put_node(id, copy.of(self.deck.nodes[&n]), card.place);
             made.push(id);
         }
-        if self.unsorted.contains(&name)
+        if self.sets.unsorted.contains(&name)
             && let Some(new) = card.get("NEWSET").map(|n| self.scoped(n))
             && !self.deck.node_sets.contains_key(&new)
         {
-            self.unsorted.insert(new.clone());
+            self.sets.unsorted.insert(new.clone());
             self.deck.node_sets.insert(new, made);
             return;
         }

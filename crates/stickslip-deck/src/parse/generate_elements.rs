@@ -82,7 +82,7 @@ impl Reader<'_> {
     fn master(&mut self, data: &Data) -> Option<(u64, Element)> {
         let id = self.own_number(data)?;
         let found = self.deck.elements.get(&id).cloned();
-        if found.is_none() && !self.skipped.contains(&id) {
+        if found.is_none() && !self.sets.skipped.contains(&id) {
             self.error(
                 data.place,
                 format!("there is no element {}", self.deck.label(id)),
@@ -183,7 +183,7 @@ impl Reader<'_> {
             return;
         };
         let Some(set) = self.deck.element_sets.get(&old).cloned() else {
-            if !self.skipped_sets.contains(&old) {
+            if !self.sets.skipped_sets.contains(&old) {
                 let known = self.deck.element_sets.keys();
                 let (message, help) = absent(&self.deck.numbering, "set of elements", &old, known);
                 self.error(card.place, message, &help);
@@ -206,7 +206,7 @@ impl Reader<'_> {
                     return;
                 };
                 copy.nodes = order.iter().map(|i| copy.nodes[*i]).collect();
-                self.reflected.insert(new);
+                self.sets.reflected.insert(new);
             }
             self.keep(new, copy);
             made.push(new);

@@ -37,7 +37,7 @@ impl Reader<'_> {
                 continue;
             };
             let value = self.number(data, 2, 0.0);
-            self.deck.initial.push(InitialCondition {
+            self.deck.start.initial.push(InitialCondition {
                 velocity,
                 target,
                 component,
@@ -50,7 +50,7 @@ impl Reader<'_> {
     pub(super) fn initial_temperatures(&mut self, card: &Card) {
         for data in &card.data {
             if let Some(temperature) = self.warm(data) {
-                self.deck.temperatures.push(temperature);
+                self.deck.start.temperatures.push(temperature);
             }
         }
     }

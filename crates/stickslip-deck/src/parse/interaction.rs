@@ -29,6 +29,7 @@ impl Reader<'_> {
         };
         if self
             .deck
+            .contact
             .interactions
             .insert(name.clone(), interaction)
             .is_some()
@@ -39,7 +40,7 @@ impl Reader<'_> {
                 "names are unique: blanks and case do not count",
             );
         }
-        self.context = Context::Interaction(name);
+        self.position.context = Context::Interaction(name);
     }
 
     pub(super) fn behavior(&mut self, card: &Card) {
@@ -65,9 +66,9 @@ impl Reader<'_> {
             }
         };
         let Some(behavior) = behavior else { return };
-        match self.context.clone() {
+        match self.position.context.clone() {
             Context::Interaction(name) => {
-                if let Some(i) = self.deck.interactions.get_mut(&name) {
+                if let Some(i) = self.deck.contact.interactions.get_mut(&name) {
                     i.behavior = Some(behavior);
                 }
             }
@@ -175,9 +176,9 @@ impl Reader<'_> {
 
     /// Friction belongs to the interaction or change above it.
     fn give_friction(&mut self, card: &Card, friction: Friction) {
-        match self.context.clone() {
+        match self.position.context.clone() {
             Context::Interaction(name) => {
-                if let Some(i) = self.deck.interactions.get_mut(&name) {
+                if let Some(i) = self.deck.contact.interactions.get_mut(&name) {
                     i.friction = Some(friction);
                 }
             }
@@ -297,9 +298,9 @@ impl Reader<'_> {
                 "damping acts against approach only: write TANGENT FRACTION=0., or leave it out",
             );
         }
-        match self.context.clone() {
+        match self.position.context.clone() {
             Context::Interaction(name) => {
-                if let Some(i) = self.deck.interactions.get_mut(&name) {
+                if let Some(i) = self.deck.contact.interactions.get_mut(&name) {
                     i.damping = Some([value, tangent]);
                 }
             }
@@ -315,7 +316,7 @@ impl Reader<'_> {
         let Some(name) = self.required(card, "INTERACTION") else {
             return;
         };
-        if !self.in_step {
+        if !self.position.in_step {
             self.error(
                 card.place,
                 format!("{} stands before the first step", card.written),
@@ -323,7 +324,7 @@ impl Reader<'_> {
             );
             return;
         }
-        self.context = context(name);
+        self.position.context = context(name);
     }
 
     /// It is an error if a card has more lines, or lines with more fields, than these.

@@ -8,7 +8,7 @@ use crate::text::clip;
 impl Reader<'_> {
     /// Whether a card says nothing that would be dropped although it changes the answer: it is an error if it does.
     pub(super) fn judge(&mut self, card: &Card, row: &'static Row) -> bool {
-        let before = self.errors.len();
+        let before = self.messages.errors.len();
         let mut refused = 0;
         for (i, p) in card.parameters.iter().enumerate() {
             let name = p.name.as_str();
@@ -19,7 +19,7 @@ impl Reader<'_> {
             match row.parameter(name) {
                 Some(Fate::Read | Fate::Idle(_)) => {}
                 Some(Fate::Harmless(why)) => {
-                    if self.noted.insert((row.keyword, p.name.clone())) {
+                    if self.messages.noted.insert((row.keyword, p.name.clone())) {
                         let message = format!("{}: {name} is left out: {why}", card.written);
                         self.note(card.place, message);
                     }
@@ -55,9 +55,9 @@ impl Reader<'_> {
             self.error(data.place, message, &help);
         }
         // What is refused of a card goes with what is not computed, if there is such; what is misspelt is wrong whatever else there is.
-        let wrong = self.errors.len() - before;
+        let wrong = self.messages.errors.len() - before;
         if wrong > refused {
-            self.formal.insert(card.place);
+            self.messages.formal.insert(card.place);
         }
         wrong == 0
     }

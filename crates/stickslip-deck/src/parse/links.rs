@@ -11,7 +11,7 @@ impl Reader<'_> {
             self.remove_equations(card);
             return;
         }
-        if self.in_step {
+        if self.position.in_step {
             self.error(
                 card.place,
                 "equations begin before the first step",
@@ -63,7 +63,7 @@ impl Reader<'_> {
                     "the first term is the one that the others determine",
                 );
             }
-            self.deck.equations.push(Equation {
+            self.deck.connectors.equations.push(Equation {
                 terms,
                 place: data.place,
             });
@@ -123,7 +123,7 @@ impl Reader<'_> {
             rotation,
             place: card.place,
         };
-        self.deck.rigid.push(rigid);
+        self.deck.connectors.rigid.push(rigid);
     }
 
     /// A parameter that names a node, by its number or by a set of one.
@@ -171,7 +171,7 @@ impl Reader<'_> {
                 "give every *PRE-TENSION SECTION a node of its own",
             );
         }
-        self.deck.pretensions.push(Pretension {
+        self.deck.connectors.pretensions.push(Pretension {
             surface,
             node,
             normal,
@@ -229,8 +229,8 @@ impl Reader<'_> {
             place: card.place,
         };
         match damper {
-            true => self.deck.dashpots.push(section),
-            false => self.deck.springs.push(section),
+            true => self.deck.connectors.dashpots.push(section),
+            false => self.deck.connectors.springs.push(section),
         }
     }
 
@@ -260,7 +260,7 @@ impl Reader<'_> {
                 "leave the last field out, or make it small against the forces",
             );
         }
-        self.deck.gaps.push(GapSection {
+        self.deck.connectors.gaps.push(GapSection {
             set,
             clearance: v[0],
             direction,
@@ -283,6 +283,6 @@ impl Reader<'_> {
                 "write the mass of each point",
             );
         }
-        self.deck.masses.push((set, mass, card.place));
+        self.deck.connectors.masses.push((set, mass, card.place));
     }
 }

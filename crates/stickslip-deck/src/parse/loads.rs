@@ -12,9 +12,9 @@ impl Reader<'_> {
     /// `OP=NEW` takes away what was prescribed before. It counts on the first card of its kind in a step, as in CalculiX; Abaqus wants it
     /// on all of them, which comes to the same.
     pub(super) fn operation(&mut self, card: &Card, clear: Action) {
-        let first = !self.touched.contains(&clear);
+        let first = !self.position.touched.contains(&clear);
         if first {
-            self.touched.push(clear.clone());
+            self.position.touched.push(clear.clone());
         }
         match card.get("OP") {
             Some("NEW") if first => self.act(clear),
@@ -38,7 +38,7 @@ impl Reader<'_> {
         };
         let known = name
             .as_ref()
-            .and_then(|n| self.deck.amplitudes.get(n))
+            .and_then(|n| self.deck.tables.amplitudes.get(n))
             .cloned();
         let (Some(name), Some(mut amplitude)) = (name, known) else {
             self.error(
@@ -55,7 +55,7 @@ impl Reader<'_> {
             row[0] += delay;
         }
         let later = format!("{name} after {delay}");
-        self.deck.amplitudes.insert(later.clone(), amplitude);
+        self.deck.tables.amplitudes.insert(later.clone(), amplitude);
         Some(later)
     }
 
@@ -105,7 +105,7 @@ impl Reader<'_> {
             );
             return;
         }
-        if self.in_step {
+        if self.position.in_step {
             self.operation(card, Action::ClearBoundaries);
         }
         let amplitude = self.course(card);
@@ -125,7 +125,7 @@ impl Reader<'_> {
                 fixed: card.has("FIXED"),
                 place: data.place,
             };
-            match self.in_step {
+            match self.position.in_step {
                 true => self.act(Action::Boundary(boundary)),
                 false => self.deck.supports.push(boundary),
             }

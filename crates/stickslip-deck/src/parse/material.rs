@@ -49,20 +49,26 @@ impl Reader<'_> {
             place: card.place,
             ..Material::default()
         };
-        if self.deck.materials.insert(name.clone(), material).is_some() {
+        if self
+            .deck
+            .properties
+            .materials
+            .insert(name.clone(), material)
+            .is_some()
+        {
             self.error(
                 card.place,
                 format!("the material {name} is given twice"),
                 "names are unique: blanks and case do not count",
             );
         }
-        self.context = Context::Material(name);
+        self.position.context = Context::Material(name);
     }
 
     /// The material that the card belongs to.
     pub(super) fn own(&mut self, card: &Card) -> Option<&mut Material> {
-        if let Context::Material(name) = self.context.clone() {
-            return self.deck.materials.get_mut(&name);
+        if let Context::Material(name) = self.position.context.clone() {
+            return self.deck.properties.materials.get_mut(&name);
         }
         self.error(
             card.place,
@@ -154,7 +160,7 @@ impl Reader<'_> {
             .map(|d: &Data| self.number(d, 0, 0.0))
             .filter(|t| *t > 0.0);
         let orientation = card.get("ORIENTATION").map(|o| self.scoped(o));
-        self.deck.sections.push(Section {
+        self.deck.properties.sections.push(Section {
             set,
             material,
             orientation,

@@ -79,10 +79,10 @@ impl Deck {
 impl Reader<'_> {
     fn finish(mut self) -> Result<Deck, DeckError> {
         let end = Place::default();
-        if !self.stopped {
+        if !self.messages.stopped {
             self.close_all();
         }
-        if self.stopped || self.structure.hollow {
+        if self.messages.stopped || self.structure.hollow {
             return Err(DeckError {
                 findings: self.verdict(),
             });
@@ -100,7 +100,7 @@ impl Reader<'_> {
                 "give them with *ELEMENT, TYPE=...",
             );
         }
-        if self.in_step {
+        if self.position.in_step {
             self.step_without_procedure();
             let place = self.deck.steps.last().map_or(end, |s| s.place);
             self.warn(place, "the last step has no *END STEP", "");
@@ -123,7 +123,7 @@ impl Reader<'_> {
                 None => "it is no keyword of CalculiX or Abaqus that stickslip knows; comments begin with **".into(),
             };
             let message = format!("unknown keyword {}", card.written);
-            self.formal.insert(card.place);
+            self.messages.formal.insert(card.place);
             self.error(card.place, message, &help);
             return None;
         };
@@ -134,7 +134,7 @@ impl Reader<'_> {
             }
             Fate::Refused(help) => {
                 // One finding a cause: the step has a procedure, if not one of ours.
-                self.procedure |= cards::OTHER_PROCEDURES.contains(&card.keyword.as_str());
+                self.position.procedure |= cards::OTHER_PROCEDURES.contains(&card.keyword.as_str());
                 self.card_beyond(card, help);
             }
         }
@@ -142,7 +142,7 @@ impl Reader<'_> {
     }
 
     fn card(&mut self, card: &Card) {
-        if self.stopped {
+        if self.messages.stopped {
             return;
         }
         let Some(row) = self.row(card) else {
@@ -157,14 +157,14 @@ impl Reader<'_> {
             return;
         }
         if !cards::BENEATH.contains(&card.keyword.as_str()) {
-            self.context = Context::None;
+            self.position.context = Context::None;
         }
         if !(sound || cards::NAMES.contains(&card.keyword.as_str())) {
             // What follows builds on what is not there.
-            self.stopped = card.keyword == "RESTART";
-            if self.stopped {
-                self.beyond.clear();
-                self.errors.retain(|f| f.line == card.place.line);
+            self.messages.stopped = card.keyword == "RESTART";
+            if self.messages.stopped {
+                self.messages.beyond.clear();
+                self.messages.errors.retain(|f| f.line == card.place.line);
             }
             return;
         }

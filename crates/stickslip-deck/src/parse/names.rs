@@ -38,7 +38,7 @@ impl Reader<'_> {
 
     /// In the order of the deck.
     pub(super) fn sort_errors(&mut self) {
-        self.errors.sort_by_key(|f| {
+        self.messages.errors.sort_by_key(|f| {
             self.source
                 .files
                 .iter()
@@ -53,16 +53,20 @@ impl Reader<'_> {
     fn settle_orientations(&mut self) {
         let deck = &mut self.deck;
         let sections = deck
+            .properties
             .sections
             .iter_mut()
             .filter_map(|s| s.orientation.as_mut());
         let couplings = deck
+            .connectors
             .couplings
             .iter_mut()
             .filter_map(|c| c.orientation.as_mut());
         for o in sections.chain(couplings) {
             let bare = deck.numbering.bare(o);
-            if !deck.orientations.contains_key(o) && deck.orientations.contains_key(bare) {
+            if !deck.properties.orientations.contains_key(o)
+                && deck.properties.orientations.contains_key(bare)
+            {
                 *o = bare.to_string();
             }
         }
@@ -122,12 +126,17 @@ impl Missing<'_> {
     }
 
     fn interaction(&mut self, name: &str, place: Place) {
-        self.named("surface interaction", name, place, &self.deck.interactions);
+        self.named(
+            "surface interaction",
+            name,
+            place,
+            &self.deck.contact.interactions,
+        );
     }
 
     /// The surfaces of a contact pair.
     fn pair(&mut self, slave: &str, master: &str, place: Place) {
-        let pairs = &self.deck.pairs;
+        let pairs = &self.deck.contact.pairs;
         if pairs.iter().any(|p| p.slave == slave && p.master == master) {
             return;
         }
@@ -151,21 +160,21 @@ impl Missing<'_> {
         for b in &deck.supports {
             self.target(&b.target, b.place);
         }
-        for i in &deck.initial {
+        for i in &deck.start.initial {
             self.target(&i.target, i.place);
         }
-        for t in &deck.temperatures {
+        for t in &deck.start.temperatures {
             self.target(&t.target, t.place);
         }
-        for p in &deck.pairs {
+        for p in &deck.contact.pairs {
             if let Some(Adjust::Set(name)) = &p.adjust {
                 self.target(&Target::Set(name.clone()), p.place);
             }
         }
-        for e in &deck.equations {
+        for e in &deck.connectors.equations {
             e.terms.iter().for_each(|t| self.target(&t.target, e.place));
         }
-        for c in &deck.couplings {
+        for c in &deck.connectors.couplings {
             if let Tied::Nodes(list) = &c.tied {
                 list.iter().for_each(|(t, _)| self.target(t, c.place));
             }
@@ -188,23 +197,28 @@ impl Missing<'_> {
 
     /// Surfaces and interactions of pairs, ties and couplings.
     fn surfaces(&mut self) {
-        for c in &self.deck.couplings {
+        for c in &self.deck.connectors.couplings {
             if let Tied::Surface(name) = &c.tied {
                 self.surface(name, c.place);
             }
             if let Some(o) = &c.orientation {
-                self.named("orientation", o, c.place, &self.deck.orientations);
+                self.named(
+                    "orientation",
+                    o,
+                    c.place,
+                    &self.deck.properties.orientations,
+                );
             }
         }
-        for p in &self.deck.pairs {
+        for p in &self.deck.contact.pairs {
             self.surface(&p.slave, p.place);
             self.surface(&p.master, p.place);
             self.interaction(&p.interaction, p.place);
         }
-        for p in &self.deck.pretensions {
+        for p in &self.deck.connectors.pretensions {
             self.surface(&p.surface, p.place);
         }
-        for t in &self.deck.ties {
+        for t in &self.deck.connectors.ties {
             self.surface(&t.slave, t.place);
             self.surface(&t.master, t.place);
         }
@@ -213,11 +227,11 @@ impl Missing<'_> {
     /// Sets, materials and orientations of sections.
     fn sections(&mut self) {
         let deck = self.deck;
-        for s in &deck.sections {
+        for s in &deck.properties.sections {
             self.named("set of elements", &s.set, s.place, &deck.element_sets);
-            self.named("material", &s.material, s.place, &deck.materials);
+            self.named("material", &s.material, s.place, &deck.properties.materials);
             if let Some(o) = &s.orientation {
-                self.named("orientation", o, s.place, &deck.orientations);
+                self.named("orientation", o, s.place, &deck.properties.orientations);
             }
         }
     }
@@ -245,7 +259,7 @@ impl Missing<'_> {
                     amplitude: Some(name),
                     place,
                     ..
-                } => self.named("amplitude", name, *place, &deck.amplitudes),
+                } => self.named("amplitude", name, *place, &deck.tables.amplitudes),
                 Action::ChangeFriction(name, _, place) | Action::ChangeBehavior(name, _, place) => {
                     self.interaction(name, *place);
                 }

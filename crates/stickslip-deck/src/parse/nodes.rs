@@ -27,7 +27,7 @@ impl Reader<'_> {
         let mut set = Vec::new();
         for data in &card.data {
             let Some(id) = self.own_number(data) else {
-                self.unread = true;
+                self.messages.unread = true;
                 continue;
             };
             let x = [1, 2, 3].map(|i| self.number(data, i, 0.0));
@@ -39,7 +39,7 @@ impl Reader<'_> {
                     "the node lies too far away to be moved or turned",
                     "write the mesh near the origin, in units in which it is neither huge nor tiny",
                 );
-                self.unread = true;
+                self.messages.unread = true;
                 continue;
             }
             if let Some(before) = self.deck.nodes.insert(id, x)
@@ -155,7 +155,7 @@ impl Reader<'_> {
             }
         };
         for n in nodes {
-            self.deck.transforms.insert(n, transform);
+            self.deck.properties.transforms.insert(n, transform);
         }
     }
 }

@@ -71,6 +71,7 @@ impl Reader<'_> {
         };
         if self
             .deck
+            .properties
             .orientations
             .insert(name.clone(), orientation)
             .is_some()
@@ -189,6 +190,7 @@ impl Reader<'_> {
         };
         if self
             .deck
+            .properties
             .distributions
             .insert(name.clone(), distribution)
             .is_some()
@@ -203,7 +205,7 @@ impl Reader<'_> {
 
     /// Gives orientations the axes of their distributions, which may stand behind them.
     pub(super) fn settle_distributions(&mut self) {
-        let orientations: Vec<_> = (self.deck.orientations.iter())
+        let orientations: Vec<_> = (self.deck.properties.orientations.iter())
             .map(|(key, o)| (key.clone(), o.place, o.taken.clone()))
             .collect();
         for (key, place, taken) in orientations {
@@ -211,7 +213,7 @@ impl Reader<'_> {
                 continue;
             };
             let bare = self.deck.numbering.bare(&name).to_string();
-            let distributions = &self.deck.distributions;
+            let distributions = &self.deck.properties.distributions;
             let known = distributions
                 .get(&name)
                 .or_else(|| distributions.get(&bare));
@@ -249,7 +251,7 @@ impl Reader<'_> {
                     }
                 }
             }
-            if let Some(o) = self.deck.orientations.get_mut(&key) {
+            if let Some(o) = self.deck.properties.orientations.get_mut(&key) {
                 o.local = general.unwrap_or_else(|| o.local.clone());
                 o.elements.extend(single);
             }

@@ -85,7 +85,7 @@ impl Reader<'_> {
             Print::Contact { .. } => "CONTACTPRINT",
             Print::Section { .. } => "SECTIONPRINT",
         };
-        if self.asked.insert(card.keyword.clone())
+        if self.position.asked.insert(card.keyword.clone())
             && let Some(step) = self.deck.steps.last_mut()
         {
             step.prints.retain(|p| kind(p) != card.keyword);
@@ -149,7 +149,7 @@ impl Reader<'_> {
         if self.own_step(card).is_none() {
             return;
         }
-        let first = self.asked.insert(card.keyword.clone());
+        let first = self.position.asked.insert(card.keyword.clone());
         if let (true, Some(step)) = (first, self.deck.steps.last_mut()) {
             step.prints.retain(|p| !matches!(p, Print::Section { .. }));
         }
@@ -196,7 +196,7 @@ impl Reader<'_> {
         if self.own_step(card).is_none() {
             return;
         }
-        if self.asked.insert("OUTPUT".into())
+        if self.position.asked.insert("OUTPUT".into())
             && let Some(step) = self.deck.steps.last_mut()
         {
             step.output_every = None;
@@ -215,24 +215,24 @@ impl Reader<'_> {
             "ELFILE" | "ELEMENTOUTPUT" => FieldsOf::Elements,
             "CONTACTFILE" | "CONTACTOUTPUT" => FieldsOf::Contact,
             _ => {
-                self.history = Some(card.has("HISTORY"));
+                self.position.history = Some(card.has("HISTORY"));
                 return;
             }
         };
         // Histories are of single nodes and elements, which are no fields.
-        if self.history == Some(true) {
+        if self.position.history == Some(true) {
             return;
         }
-        if self.asked.insert(format!("FILE {of:?}"))
+        if self.position.asked.insert(format!("FILE {of:?}"))
             && let Some(step) = self.deck.steps.last_mut()
         {
             step.filed.retain(|f| f.of != of);
         }
         let quantities = self.quantities(card, of);
-        if self.deck.frd.is_none() {
+        if self.deck.output.frd.is_none() {
             // In CalculiX cards with OUTPUT are for a binary file; in Abaqus, where they stand under *OUTPUT, they say nothing of it.
-            let binary = card.keyword.ends_with("OUTPUT") && self.history.is_none();
-            self.deck.frd = Some(match binary {
+            let binary = card.keyword.ends_with("OUTPUT") && self.position.history.is_none();
+            self.deck.output.frd = Some(match binary {
                 true => Encoding::Binary,
                 false => Encoding::Text,
             });
@@ -264,7 +264,7 @@ impl Reader<'_> {
             }
         }
         // A choice of Abaqus's own, such as VARIABLE=PRESELECT.
-        if asked.is_empty() && self.history.is_some() {
+        if asked.is_empty() && self.position.history.is_some() {
             out.extend(match of {
                 FieldsOf::Nodes => vec![Quantity::Displacement, Quantity::Force],
                 FieldsOf::Elements => vec![Quantity::Stress, Quantity::Strain],

@@ -82,7 +82,7 @@ impl Reader<'_> {
                 self.tied_pair(card, data, slave, master, &adjust);
                 continue;
             }
-            self.deck.pairs.push(Pair {
+            self.deck.contact.pairs.push(Pair {
                 slave,
                 master,
                 interaction: interaction.clone(),
@@ -111,7 +111,7 @@ impl Reader<'_> {
             );
             return;
         };
-        self.deck.ties.push(Tie {
+        self.deck.connectors.ties.push(Tie {
             name: format!("{slave}-{master}"),
             slave,
             master,
@@ -187,7 +187,7 @@ impl Reader<'_> {
             return;
         }
         let value = parameter(self, card, "VALUE").unwrap_or(0.0);
-        self.deck.clearances.push(Clearance {
+        self.deck.contact.clearances.push(Clearance {
             slave,
             master,
             value,
@@ -222,10 +222,10 @@ impl Reader<'_> {
                 continue;
             };
             let name = card.get("NAME").map_or_else(
-                || format!("TIE-{}", self.deck.ties.len() + 1),
+                || format!("TIE-{}", self.deck.connectors.ties.len() + 1),
                 str::to_string,
             );
-            self.deck.ties.push(Tie {
+            self.deck.connectors.ties.push(Tie {
                 name,
                 slave,
                 master,

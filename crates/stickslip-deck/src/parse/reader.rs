@@ -11,8 +11,9 @@ use crate::motion::Motion;
 use crate::source::Source;
 
 /// What of a material or interaction the next cards are about.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(super) enum Context {
+    #[default]
     None,
     Material(String),
     Interaction(String),
@@ -26,6 +27,23 @@ pub(super) enum Context {
 pub(super) struct Reader<'a> {
     pub(super) source: &'a Source,
     pub(super) deck: Deck,
+    /// What has been said of the deck.
+    pub(super) messages: Messages,
+    /// Where among the cards of a step the reader stands.
+    pub(super) position: StepCards,
+    /// What is to be checked of elements and sets when all are read.
+    pub(super) sets: SetChecks,
+    /// Parts, and where in the assembly the reader stands.
+    pub(super) structure: Structure,
+    /// The instance that numbers and names are those of.
+    pub(super) scope: Option<usize>,
+    /// The `*SYSTEM` of the nodes that follow.
+    pub(super) system: Motion,
+}
+
+/// What has been said of a deck while it is read.
+#[derive(Debug, Default)]
+pub(super) struct Messages {
     pub(super) errors: Vec<Finding>,
     /// What is not computed, by kind.
     pub(super) beyond: Vec<Beyond>,
@@ -33,6 +51,17 @@ pub(super) struct Reader<'a> {
     pub(super) written: BTreeMap<String, String>,
     /// Lines that are wrong whatever else there is: misspelt keywords and parameters.
     pub(super) formal: BTreeSet<Place>,
+    /// Parameters that a note has been made of.
+    pub(super) noted: BTreeSet<(&'static str, String)>,
+    /// A line of a *NODE could not be read.
+    pub(super) unread: bool,
+    /// The deck goes on from what is not there: the rest means nothing.
+    pub(super) stopped: bool,
+}
+
+/// Where among the cards of a step the reader stands.
+#[derive(Debug, Default)]
+pub(super) struct StepCards {
     pub(super) context: Context,
     pub(super) in_step: bool,
     /// Whether the step has its procedure.
@@ -43,12 +72,15 @@ pub(super) struct Reader<'a> {
     pub(super) asked: BTreeSet<String>,
     /// The last `*OUTPUT`, under which cards of Abaqus stand, is `HISTORY`; `None` before there was one.
     pub(super) history: Option<bool>,
+}
+
+/// What is to be checked of elements and sets when all are read.
+#[derive(Debug, Default)]
+pub(super) struct SetChecks {
     /// Sets of nodes and of elements that name one twice, with its number.
     pub(super) doubled: [BTreeMap<String, u64>; 2],
     /// Elements with a node that is not there yet, and where.
     pub(super) waiting: Vec<(u64, Place)>,
-    /// A line of a *NODE could not be read.
-    pub(super) unread: bool,
     /// Sets of nodes that keep the order of the deck where order counts.
     pub(super) unsorted: BTreeSet<String>,
     /// Elements whose faces have other numbers than those they were made of.
@@ -58,18 +90,8 @@ pub(super) struct Reader<'a> {
     pub(super) skipped_sets: BTreeSet<String>,
     /// Types of elements that may bound others, where they were met first.
     pub(super) bounding: Vec<(String, Place)>,
-    /// Parameters that a note has been made of.
-    pub(super) noted: BTreeSet<(&'static str, String)>,
     /// Nodes and elements that sets name and that are not there: set, what, where.
     pub(super) absent: Vec<(String, String, Place)>,
-    /// Parts, and where in the assembly the reader stands.
-    pub(super) structure: Structure,
-    /// The instance that numbers and names are those of.
-    pub(super) scope: Option<usize>,
-    /// The `*SYSTEM` of the nodes that follow.
-    pub(super) system: Motion,
-    /// The deck goes on from what is not there: the rest means nothing.
-    pub(super) stopped: bool,
 }
 
 /// After so many errors no more are looked for: something else is wrong than single lines.
@@ -77,37 +99,17 @@ const ENOUGH: usize = 50;
 
 impl<'a> Reader<'a> {
     pub(super) fn new(source: &'a Source) -> Self {
-        let deck = Deck {
-            files: source.files.clone(),
-            ..Deck::default()
-        };
+        let mut deck = Deck::default();
+        deck.output.files.clone_from(&source.files);
         Reader {
             source,
             deck,
-            errors: Vec::new(),
-            beyond: Vec::new(),
-            written: Default::default(),
-            formal: Default::default(),
-            context: Context::None,
-            in_step: false,
-            procedure: false,
-            touched: Vec::new(),
-            asked: BTreeSet::new(),
-            history: None,
-            doubled: Default::default(),
-            waiting: Vec::new(),
-            unread: false,
-            unsorted: Default::default(),
-            reflected: Default::default(),
-            skipped: Default::default(),
-            skipped_sets: Default::default(),
-            bounding: Vec::new(),
-            noted: Default::default(),
-            absent: Vec::new(),
+            messages: Messages::default(),
+            position: StepCards::default(),
+            sets: SetChecks::default(),
             structure: Structure::default(),
             scope: None,
             system: Motion::NONE,
-            stopped: false,
         }
     }
 
@@ -133,12 +135,12 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn error(&mut self, place: Place, message: impl Into<String>, help: &str) {
-        if self.errors.len() < ENOUGH {
+        if self.messages.errors.len() < ENOUGH {
             let finding = self.finding(Severity::Error, place, message.into(), help);
-            if self.said(&finding, &self.errors) {
+            if self.said(&finding, &self.messages.errors) {
                 return;
             }
-            self.errors.push(finding);
+            self.messages.errors.push(finding);
         }
     }
 

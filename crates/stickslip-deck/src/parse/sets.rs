@@ -46,11 +46,11 @@ impl Reader<'_> {
         let out = self.nodes_named(card, &name);
         self.scope = outer;
         if card.has("UNSORTED") {
-            self.unsorted.insert(name.clone());
+            self.sets.unsorted.insert(name.clone());
         }
         let set = self.deck.node_sets.entry(name.clone()).or_default();
         if let Some(n) = add(set, out) {
-            self.doubled[0].entry(name).or_insert(n);
+            self.sets.doubled[0].entry(name).or_insert(n);
         }
     }
 
@@ -76,7 +76,7 @@ impl Reader<'_> {
                     Nodes::One(n) => out.push(n),
                     Nodes::Absent(n) => {
                         let what = format!("node {}", self.deck.label(n));
-                        self.absent.push((name.to_string(), what, data.place));
+                        self.sets.absent.push((name.to_string(), what, data.place));
                     }
                     Nodes::Set(part) => {
                         out.extend(&self.deck.node_sets[&part]);
@@ -95,14 +95,16 @@ impl Reader<'_> {
 
     /// A set of nodes (0) or elements (1) that is part of another makes it name twice what it names twice.
     pub(super) fn inherit(&mut self, kind: usize, part: &str, whole: &str) {
-        if let Some(n) = self.doubled[kind].get(part).copied() {
-            self.doubled[kind].entry(whole.to_string()).or_insert(n);
+        if let Some(n) = self.sets.doubled[kind].get(part).copied() {
+            self.sets.doubled[kind]
+                .entry(whole.to_string())
+                .or_insert(n);
         }
     }
 
     /// It is an error to add up over a set of nodes (0) or elements (1) that names one of them twice: programs differ in how often it counts.
     pub(super) fn once(&mut self, kind: usize, set: &str, place: Place) {
-        let Some(n) = self.doubled[kind].get(set) else {
+        let Some(n) = self.sets.doubled[kind].get(set) else {
             return;
         };
         let what = ["node", "element"][kind];
@@ -120,7 +122,7 @@ impl Reader<'_> {
     pub(super) fn judge_absent(&mut self) {
         // What a part lacks its instances lack as well: it is said once.
         let mut said = BTreeSet::new();
-        let absent: Vec<_> = self.absent.drain(..).collect();
+        let absent: Vec<_> = self.sets.absent.drain(..).collect();
         for (set, what, place) in absent {
             if !said.insert((place, self.without_instances(&what))) {
                 continue;
@@ -183,7 +185,7 @@ impl Reader<'_> {
         self.scope = outer;
         let set = self.deck.element_sets.entry(name.clone()).or_default();
         if let Some(n) = add(set, out) {
-            self.doubled[1].entry(name).or_insert(n);
+            self.sets.doubled[1].entry(name).or_insert(n);
         }
     }
 }

@@ -9,11 +9,11 @@ use crate::text::clip;
 impl Reader<'_> {
     pub(super) fn heading(&mut self, card: &Card) {
         let first = card.data.first().map(|d| d.fields.join(", "));
-        self.deck.title = self.deck.title.take().or(first);
+        self.deck.output.title = self.deck.output.title.take().or(first);
     }
 
     pub(super) fn step(&mut self, card: &Card) {
-        if self.in_step {
+        if self.position.in_step {
             self.step_without_procedure();
             self.warn(card.place, "the step before has no *END STEP", "");
         }
@@ -47,14 +47,14 @@ impl Reader<'_> {
             output_times: before.map_or_else(Vec::new, |s| s.output_times.clone()),
             ..Step::default()
         });
-        self.in_step = true;
-        self.procedure = false;
-        self.touched.clear();
-        self.asked.clear();
+        self.position.in_step = true;
+        self.position.procedure = false;
+        self.position.touched.clear();
+        self.position.asked.clear();
     }
 
     pub(super) fn end_step(&mut self, card: &Card) {
-        if !self.in_step {
+        if !self.position.in_step {
             self.error(
                 card.place,
                 "*END STEP without *STEP",
@@ -63,12 +63,12 @@ impl Reader<'_> {
             return;
         }
         self.step_without_procedure();
-        self.in_step = false;
+        self.position.in_step = false;
     }
 
     /// The step that the card belongs to.
     pub(super) fn own_step(&mut self, card: &Card) -> Option<&mut Step> {
-        if !self.in_step {
+        if !self.position.in_step {
             self.error(
                 card.place,
                 format!("{} stands outside of a step", card.written),
@@ -104,7 +104,7 @@ impl Reader<'_> {
     }
 
     pub(super) fn proceed(&mut self, card: &Card, procedure: Procedure) {
-        if self.procedure && self.in_step {
+        if self.position.procedure && self.position.in_step {
             self.error(
                 card.place,
                 "a second procedure in one step",
@@ -124,7 +124,7 @@ impl Reader<'_> {
         }
         if let Some(step) = self.own_step(card) {
             step.procedure = procedure;
-            self.procedure = true;
+            self.position.procedure = true;
         }
     }
 
@@ -266,7 +266,7 @@ impl Reader<'_> {
     }
 
     pub(super) fn step_without_procedure(&mut self) {
-        if !self.procedure {
+        if !self.position.procedure {
             let place = self.deck.steps.last().map_or(Place::default(), |s| s.place);
             self.error(
                 place,

@@ -65,6 +65,7 @@ impl Reader<'_> {
         };
         if self
             .deck
+            .tables
             .amplitudes
             .insert(name.clone(), amplitude)
             .is_some()
@@ -105,7 +106,13 @@ impl Reader<'_> {
             times,
             total_time: card.get("TIME") == Some("TOTALTIME"),
         };
-        if self.deck.time_points.insert(name.clone(), points).is_some() {
+        if self
+            .deck
+            .tables
+            .time_points
+            .insert(name.clone(), points)
+            .is_some()
+        {
             self.error(
                 card.place,
                 format!("the time points {name} are given twice"),

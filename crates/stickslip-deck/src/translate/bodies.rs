@@ -307,7 +307,7 @@ fn bounding(job: &mut Job) -> BTreeSet<u64> {
         t.ok().map(|t| t.space == Space::Solid)
     };
     let solid = deck.elements.keys().any(|id| space(id) == Some(true));
-    let sectioned: BTreeSet<u64> = (deck.sections.iter())
+    let sectioned: BTreeSet<u64> = (deck.properties.sections.iter())
         .filter_map(|s| deck.element_sets.get(&s.set))
         .flatten()
         .copied()
@@ -386,7 +386,7 @@ fn instance(deck: &Deck, body: &Body) -> Option<String> {
 /// A body is called like its instance, or the set of just its elements, or by a number.
 fn names(job: &Job, bodies: &mut Bodies) {
     let deck = job.deck;
-    let sectioned: Vec<&String> = deck.sections.iter().map(|s| &s.set).collect();
+    let sectioned: Vec<&String> = deck.properties.sections.iter().map(|s| &s.set).collect();
     let mut taken = BTreeSet::new();
     for (i, body) in bodies.all.iter_mut().enumerate() {
         let same = |name: &&String| {
@@ -415,7 +415,7 @@ fn names(job: &Job, bodies: &mut Bodies) {
 
 fn sections(job: &mut Job, bodies: &mut Bodies) {
     let deck = job.deck;
-    for (i, s) in deck.sections.iter().enumerate() {
+    for (i, s) in deck.properties.sections.iter().enumerate() {
         for e in deck.element_sets.get(&s.set).into_iter().flatten() {
             bodies.section.insert(*e, i);
         }
@@ -436,7 +436,7 @@ fn sections(job: &mut Job, bodies: &mut Bodies) {
 
 fn rigid(job: &mut Job, bodies: &mut Bodies) {
     let deck = job.deck;
-    for (i, r) in deck.rigid.iter().enumerate() {
+    for (i, r) in deck.connectors.rigid.iter().enumerate() {
         let elements: Vec<u64> = r
             .elements
             .iter()

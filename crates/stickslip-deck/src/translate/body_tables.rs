@@ -71,19 +71,24 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets, mesh_name: 
         .line(&format!("space = \"{}\"", space_name(bodies.space)));
     if matches!(bodies.space, Space::PlaneStress | Space::PlaneStrain) {
         let thick: BTreeMap<u64, &Section> = deck
+            .properties
             .sections
             .iter()
             .map(|s| (s.thickness.unwrap_or(1.0).to_bits(), s))
             .collect();
         if thick.len() > 1 {
-            let place = deck.sections.last().map_or(Place::default(), |s| s.place);
+            let place = deck
+                .properties
+                .sections
+                .last()
+                .map_or(Place::default(), |s| s.place);
             job.error(
                 place,
                 "sections of different thickness",
                 "all bodies of a plane problem have the same thickness",
             );
         }
-        if let Some(t) = deck.sections.iter().find_map(|s| s.thickness) {
+        if let Some(t) = deck.properties.sections.iter().find_map(|s| s.thickness) {
             job.out.line(&format!("thickness = {}", toml::number(t)));
         }
     }
@@ -160,22 +165,22 @@ fn held(job: &Job) -> BTreeSet<u64> {
 fn turns_freely(job: &Job, held: &BTreeSet<u64>, space: Space, body: &Body) -> bool {
     let deck = job.deck;
     let moving = |s: &Step| s.nonlinear && s.is_dynamic();
-    let joined = !deck.equations.is_empty()
-        || !deck.couplings.is_empty()
-        || !deck.constraints.is_empty()
-        || !deck.springs.is_empty()
-        || !deck.dashpots.is_empty()
-        || !deck.gaps.is_empty()
-        || !deck.pretensions.is_empty()
-        || !deck.temperatures.is_empty()
-        || !deck.ties.is_empty();
+    let joined = !deck.connectors.equations.is_empty()
+        || !deck.connectors.couplings.is_empty()
+        || !deck.connectors.constraints.is_empty()
+        || !deck.connectors.springs.is_empty()
+        || !deck.connectors.dashpots.is_empty()
+        || !deck.connectors.gaps.is_empty()
+        || !deck.connectors.pretensions.is_empty()
+        || !deck.start.temperatures.is_empty()
+        || !deck.connectors.ties.is_empty();
     let elements = body.elements.iter().filter_map(|e| deck.elements.get(e));
     let mut nodes = elements.flat_map(|e| &e.nodes);
     !deck.steps.is_empty()
         && deck.steps.iter().all(moving)
         && !joined
         && space != Space::Axisymmetric
-        && deck.pairs.iter().all(|p| !p.small_sliding)
+        && deck.contact.pairs.iter().all(|p| !p.small_sliding)
         && nodes.all(|n| !held.contains(n))
 }
 
@@ -198,13 +203,16 @@ fn bends(job: &mut Job, space: Space) -> bool {
     let reasons = [
         (!deck.steps.iter().all(at_rest), "a step is not *STATIC"),
         (space == Space::Axisymmetric, "elements are axisymmetric"),
-        (!deck.temperatures.is_empty(), "there are temperatures"),
         (
-            deck.pairs.iter().any(|p| p.small_sliding),
+            !deck.start.temperatures.is_empty(),
+            "there are temperatures",
+        ),
+        (
+            deck.contact.pairs.iter().any(|p| p.small_sliding),
             "a pair slides by little (SMALL SLIDING)",
         ),
         (
-            !deck.ties.is_empty(),
+            !deck.connectors.ties.is_empty(),
             "surfaces are tied where they lie at the start (*TIE)",
         ),
         (
@@ -234,9 +242,13 @@ fn bends(job: &mut Job, space: Space) -> bool {
 fn damping(job: &mut Job, bodies: &Bodies, body: &Body) {
     let deck = job.deck;
     let of = |e: &u64| {
-        let s = &deck.sections[*bodies.section.get(e)?];
+        let s = &deck.properties.sections[*bodies.section.get(e)?];
         Some((
-            deck.materials.get(&s.material)?.damping.unwrap_or_default(),
+            deck.properties
+                .materials
+                .get(&s.material)?
+                .damping
+                .unwrap_or_default(),
             s.place,
         ))
     };

@@ -62,7 +62,7 @@ fn parts(
 pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let deck = job.deck;
     clearances(job);
-    for pair in &deck.pairs {
+    for pair in &deck.contact.pairs {
         if pair.slave == pair.master {
             job.error(
                 pair.place,
@@ -124,8 +124,9 @@ fn present(deck: &Deck, pair: &Pair) -> Vec<bool> {
 /// Clearances are of contact pairs.
 fn clearances(job: &mut Job) {
     let deck = job.deck;
-    for c in &deck.clearances {
+    for c in &deck.contact.clearances {
         let known = deck
+            .contact
             .pairs
             .iter()
             .any(|p| p.slave == c.slave && p.master == c.master);
@@ -145,7 +146,7 @@ fn clearances(job: &mut Job) {
 /// The interfaces of ties.
 fn ties(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let deck = job.deck;
-    for tie in &deck.ties {
+    for tie in &deck.connectors.ties {
         let secondary = parts(job, bodies, sets, &tie.slave, false, tie.place);
         let primary = parts(job, bodies, sets, &tie.master, true, tie.place);
         for (s, from) in &secondary {
@@ -304,6 +305,7 @@ fn interface(
         job.out.line("kinematics.small-sliding = {}");
     }
     let clearance = deck
+        .contact
         .clearances
         .iter()
         .find(|c| c.slave == pair.slave && c.master == pair.master);
@@ -543,7 +545,7 @@ fn enforcement(job: &mut Job, interaction: &Interaction) {
 
 /// The interaction of a name in each step, with the place of what changed it there.
 fn courses(deck: &Deck, name: &str) -> Vec<(Interaction, Option<Place>)> {
-    let Some(mut now) = deck.interactions.get(name).cloned() else {
+    let Some(mut now) = deck.contact.interactions.get(name).cloned() else {
         return Vec::new();
     };
     let steps = deck.steps.iter().map(|step| {
@@ -569,9 +571,10 @@ fn courses(deck: &Deck, name: &str) -> Vec<(Interaction, Option<Place>)> {
 /// Whether surfaces are tied by springs of the deck's own.
 pub(super) fn ties_by_springs(deck: &Deck) -> bool {
     let mut used = deck
+        .contact
         .pairs
         .iter()
-        .filter_map(|p| deck.interactions.get(&p.interaction));
+        .filter_map(|p| deck.contact.interactions.get(&p.interaction));
     used.any(|i| matches!(i.behavior, Some(Behavior::Tied(Some(_)))))
 }
 
@@ -581,7 +584,7 @@ fn is_tied(interaction: &Interaction) -> bool {
 
 /// What a pair is over the steps: as it begins, and, if it is tied at first, what it is once it comes apart; each with the steps of it.
 fn phases(job: &Job, pair: &Pair) -> Vec<(Interaction, Vec<bool>)> {
-    let Some(first) = job.deck.interactions.get(&pair.interaction) else {
+    let Some(first) = job.deck.contact.interactions.get(&pair.interaction) else {
         return Vec::new();
     };
     let course = courses(job.deck, &pair.interaction);
@@ -600,9 +603,9 @@ fn phases(job: &Job, pair: &Pair) -> Vec<(Interaction, Vec<bool>)> {
 
 fn changes(job: &mut Job) {
     let deck = job.deck;
-    let used: BTreeSet<&String> = deck.pairs.iter().map(|p| &p.interaction).collect();
+    let used: BTreeSet<&String> = deck.contact.pairs.iter().map(|p| &p.interaction).collect();
     for name in used {
-        let Some(mut before) = deck.interactions.get(name).cloned() else {
+        let Some(mut before) = deck.contact.interactions.get(name).cloned() else {
             continue;
         };
         for (step, (after, changed)) in courses(deck, name).into_iter().enumerate() {
@@ -640,7 +643,12 @@ fn change(
             "give the one of the *FRICTION beneath *SURFACE INTERACTION",
         );
     }
-    let pairs = job.deck.pairs.iter().filter(|p| p.interaction == *name);
+    let pairs = job
+        .deck
+        .contact
+        .pairs
+        .iter()
+        .filter(|p| p.interaction == *name);
     for pair in pairs.collect::<Vec<_>>() {
         let mut lines = Vec::new();
         if before.friction != after.friction {

@@ -94,7 +94,7 @@ pub(super) fn amplitude(
     kept: &[bool],
     user: &str,
 ) -> String {
-    let Some(a) = job.deck.amplitudes.get(name) else {
+    let Some(a) = job.deck.tables.amplitudes.get(name) else {
         return name.to_string();
     };
     let mut rows: Vec<[f64; 2]> = Vec::new();
@@ -139,7 +139,7 @@ pub(super) fn ending(
     ends: &[bool],
     user: &str,
 ) -> String {
-    let given = name.and_then(|n| job.deck.amplitudes.get(n));
+    let given = name.and_then(|n| job.deck.tables.amplitudes.get(n));
     let mut rows: Vec<[f64; 2]> = Vec::new();
     let mut before = 0.0;
     for (i, [start, length]) in job.spans.clone().into_iter().enumerate() {

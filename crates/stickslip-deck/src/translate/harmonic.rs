@@ -30,7 +30,13 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies) {
                 "write it into the *STEADY STATE DYNAMICS step",
             );
         }
-        if step.is_harmonic() && deck.materials.values().any(|m| m.damping.is_some()) {
+        if step.is_harmonic()
+            && deck
+                .properties
+                .materials
+                .values()
+                .any(|m| m.damping.is_some())
+        {
             let message = "*STEADY STATE DYNAMICS: *DAMPING of materials counts, which CalculiX leaves out beside *MODAL DAMPING";
             job.note(step.place, message);
         }

@@ -65,7 +65,7 @@ impl<'a> Job<'a> {
     }
 
     pub(super) fn failed(mut self) -> DeckError {
-        let files = &self.deck.files;
+        let files = &self.deck.output.files;
         self.errors
             .sort_by_key(|f| (files.iter().position(|p| *p == f.file), f.line));
         DeckError {
@@ -82,7 +82,13 @@ impl<'a> Job<'a> {
     ) -> Finding {
         Finding {
             severity,
-            file: self.deck.files.get(place.file).cloned().unwrap_or_default(),
+            file: self
+                .deck
+                .output
+                .files
+                .get(place.file)
+                .cloned()
+                .unwrap_or_default(),
             line: place.line,
             message,
             help: (!help.is_empty()).then(|| help.to_string()),

@@ -65,6 +65,7 @@ fn along(job: &Job, node: u64, component: usize, factor: f64) -> [f64; 6] {
 fn along_axes(job: &Job, node: u64, component: usize, factor: f64) -> [f64; 3] {
     let local = job
         .deck
+        .properties
         .transforms
         .get(&node)
         .and_then(|t| axes::at_node(t, job.deck.nodes[&node]));
@@ -129,7 +130,7 @@ fn held(job: &Job, node: u64, component: usize) -> Vec<bool> {
 }
 
 fn equations(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u64>) {
-    for (i, e) in job.deck.equations.iter().enumerate() {
+    for (i, e) in job.deck.connectors.equations.iter().enumerate() {
         let nodes: Vec<Vec<u64>> = e.terms.iter().map(|t| job.nodes(&t.target)).collect();
         // Sets are paired one by one, in the order of the deck.
         let count = nodes.iter().map(Vec::len).max().unwrap_or(0);
@@ -321,7 +322,7 @@ pub(super) fn equation(
 
 fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u64>) {
     let deck = job.deck;
-    for s in &deck.springs {
+    for s in &deck.connectors.springs {
         for link in links(job, bodies, &s.set, ground) {
             let kinds = ["SPRINGA", "SPRING1", "SPRING2"];
             if !is_of(job, &link, &kinds, "*SPRING", s.place) {
@@ -354,7 +355,7 @@ fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u6
             }
         }
     }
-    for s in &deck.dashpots {
+    for s in &deck.connectors.dashpots {
         for link in links(job, bodies, &s.set, ground) {
             let kinds = ["DASHPOTA", "DASHPOT1", "DASHPOT2"];
             if !is_of(job, &link, &kinds, "*DASHPOT", s.place) {
@@ -374,7 +375,7 @@ fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u6
 
 fn gaps(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u64>) {
     let deck = job.deck;
-    for g in &deck.gaps {
+    for g in &deck.connectors.gaps {
         for link in links(job, bodies, &g.set, ground) {
             if !is_of(job, &link, &["GAPUNI"], "*GAP", g.place) {
                 continue;
@@ -411,7 +412,7 @@ fn gaps(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u64>)
 
 fn masses(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let deck = job.deck;
-    for (set, mass, place) in &deck.masses {
+    for (set, mass, place) in &deck.connectors.masses {
         let ids = deck.element_sets.get(set).into_iter().flatten();
         let nodes: Vec<u64> = ids
             .filter_map(|id| deck.elements[id].nodes.first().copied())

@@ -17,7 +17,12 @@ pub(super) fn findings(deck: &Deck, bodies: &Bodies) -> Vec<Finding> {
     let mut say = |severity, place: Place, message: String, help: &str| {
         out.push(Finding {
             severity,
-            file: deck.files.get(place.file).cloned().unwrap_or_default(),
+            file: deck
+                .output
+                .files
+                .get(place.file)
+                .cloned()
+                .unwrap_or_default(),
             line: place.line,
             message,
             help: (!help.is_empty()).then(|| help.to_string()),
@@ -32,7 +37,8 @@ pub(super) fn findings(deck: &Deck, bodies: &Bodies) -> Vec<Finding> {
         .flat_map(|e| e.nodes.iter().copied())
         .collect();
     named.extend(
-        deck.rigid
+        deck.connectors
+            .rigid
             .iter()
             .flat_map(|r| [r.reference, r.rotation])
             .flatten(),
@@ -64,24 +70,24 @@ pub(super) fn findings(deck: &Deck, bodies: &Bodies) -> Vec<Finding> {
             "write *NODE FILE and *EL FILE in it; stickslip writes the end of every step anyway",
         );
     }
-    for (name, i) in &deck.interactions {
+    for (name, i) in &deck.contact.interactions {
         for (message, help) in of_interaction(deck, name, i) {
             say(Severity::Warning, i.place, message, help);
         }
     }
-    for pair in &deck.pairs {
+    for pair in &deck.contact.pairs {
         for (message, help) in of_pair(deck, bodies, pair) {
             say(Severity::Warning, pair.place, message, help);
         }
     }
-    out.sort_by_key(|f| (deck.files.iter().position(|p| *p == f.file), f.line));
+    out.sort_by_key(|f| (deck.output.files.iter().position(|p| *p == f.file), f.line));
     out
 }
 
 /// What CalculiX needs of an interaction.
 fn of_interaction(deck: &Deck, name: &str, i: &Interaction) -> Vec<(String, &'static str)> {
     let mut out = Vec::new();
-    if !deck.pairs.iter().any(|p| p.interaction == name) {
+    if !deck.contact.pairs.iter().any(|p| p.interaction == name) {
         return out;
     }
     if i.behavior.is_none() {

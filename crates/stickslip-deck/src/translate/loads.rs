@@ -108,6 +108,7 @@ fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         }
         let force = match job
             .deck
+            .properties
             .transforms
             .get(&node)
             .and_then(|t| axes::at_node(t, job.deck.nodes[&node]))
@@ -158,7 +159,7 @@ fn moments(job: &mut Job, bodies: &Bodies, all: Vec<((u64, usize), Acting<f64>)>
             );
             continue;
         };
-        if plane && component != 5 || job.deck.transforms.contains_key(&node) {
+        if plane && component != 5 || job.deck.properties.transforms.contains_key(&node) {
             let message = "a moment out of the plane, or in the local axes of a *TRANSFORM";
             job.error(
                 a.place,
@@ -186,6 +187,7 @@ fn moments(job: &mut Job, bodies: &Bodies, all: Vec<((u64, usize), Acting<f64>)>
 fn stand_in(job: &Job, bodies: &Bodies, node: u64) -> Option<u64> {
     let index = job
         .deck
+        .connectors
         .rigid
         .iter()
         .position(|r| r.reference == Some(node))?;
@@ -317,7 +319,7 @@ fn pressures(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
 
 fn initial(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let mut nodes: BTreeMap<(bool, u64), ([f64; 3], Place, String)> = BTreeMap::new();
-    for i in &job.deck.initial {
+    for i in &job.deck.start.initial {
         for node in job.nodes(&i.target) {
             let entry = nodes.entry((i.velocity, node)).or_insert((
                 [0.0; 3],

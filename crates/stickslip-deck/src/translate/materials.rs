@@ -12,7 +12,10 @@ type Axes = [[f64; 3]; 3];
 
 /// The local axes of an element in its section: those at its centre, where they turn with the place.
 pub(super) fn axes_of(deck: &Deck, element: u64, section: &Section) -> Option<Axes> {
-    let orientation = deck.orientations.get(section.orientation.as_ref()?)?;
+    let orientation = deck
+        .properties
+        .orientations
+        .get(section.orientation.as_ref()?)?;
     let own = orientation.elements.get(&element);
     let nodes = &deck.elements.get(&element)?.nodes;
     let sum = nodes.iter().fold([0.0; 3], |sum: [f64; 3], n| {
@@ -35,8 +38,8 @@ pub(super) fn assign(
     let mut taken = BTreeSet::new();
     let mut centred = BTreeSet::new();
     for (element, index) in section_of {
-        let section = &deck.sections[*index];
-        let material = deck.materials.get(&section.material);
+        let section = &deck.properties.sections[*index];
+        let material = deck.properties.materials.get(&section.material);
         let directed = material.is_some_and(|m| {
             let mut rows = m.elastic_at.iter();
             rows.any(|(_, e)| !matches!(e, Elastic::Isotropic(_)))
@@ -48,7 +51,7 @@ pub(super) fn assign(
             Some(o) => toml::name(&format!("{}-{o}", section.material)),
             None => toml::name(&section.material),
         };
-        if let Some(o) = orientation.and_then(|o| deck.orientations.get(o)) {
+        if let Some(o) = orientation.and_then(|o| deck.properties.orientations.get(o)) {
             let round = matches!(
                 o.elements.get(element).unwrap_or(&o.local),
                 Local::Cylinder(_)
@@ -90,8 +93,8 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies) {
     used.sort_by(|a, b| a.name.cmp(&b.name));
     for turned_by in used {
         let (name, axes) = (&turned_by.name, &turned_by.axes);
-        let section = &deck.sections[turned_by.section];
-        let Some(material) = deck.materials.get(&section.material) else {
+        let section = &deck.properties.sections[turned_by.section];
+        let Some(material) = deck.properties.materials.get(&section.material) else {
             continue;
         };
         if material.elastic.is_none() {
@@ -203,10 +206,9 @@ fn constants(
     }
     let deck = job.deck;
     let at = super::temperatures::at_start(job);
-    let own = bodies
-        .section
-        .iter()
-        .filter(|(e, s)| deck.sections[**s].material == name && bodies.of_element.contains_key(e));
+    let own = bodies.section.iter().filter(|(e, s)| {
+        deck.properties.sections[**s].material == name && bodies.of_element.contains_key(e)
+    });
     let nodes = own.flat_map(|(e, _)| deck.elements[e].nodes.iter());
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for n in nodes {

@@ -26,7 +26,7 @@ mod toml;
 mod translation;
 mod volumes;
 
-pub use translation::Translation;
+pub use translation::{PrintPlan, Translation};
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -58,7 +58,12 @@ impl Deck {
         let bodies = bodies;
         let mut sets = Sets::new(self, &bodies);
         job.out.line("format = 1");
-        if let Some(title) = self.title.as_deref().filter(|t| !t.trim().is_empty()) {
+        if let Some(title) = self
+            .output
+            .title
+            .as_deref()
+            .filter(|t| !t.trim().is_empty())
+        {
             job.out
                 .line(&format!("title = {}", toml::text(title.trim())));
         }
@@ -85,36 +90,38 @@ impl Deck {
         let mesh = Arc::new(sets.into_mesh(&bodies));
         let mut notes = self.notes.clone();
         notes.append(&mut job.notes);
-        let node_axes = self.transforms.iter().filter_map(|(n, t)| {
+        let node_axes = self.properties.transforms.iter().filter_map(|(n, t)| {
             let x = *self.nodes.get(n)?;
             Some((*n, axes::at_node(t, x)?))
         });
         let element_axes = bodies.section.iter().filter_map(|(e, s)| {
-            let axes = materials::axes_of(self, *e, &self.sections[*s])?;
+            let axes = materials::axes_of(self, *e, &self.properties.sections[*s])?;
             Some((*e, axes))
         });
         Ok(Translation {
+            plan: PrintPlan {
+                times: times(&job),
+                node_axes: node_axes.collect(),
+                element_axes: element_axes.collect(),
+                prints: self.steps.iter().map(|s| s.prints.clone()).collect(),
+                node_sets: printed(self, &self.node_sets),
+                element_sets: printed(self, &self.element_sets),
+                surfaces: carried(self, &bodies),
+                pairs: job.pairs,
+                drawn,
+                references: references::printed(self, &bodies),
+                numbering: self.numbering.clone(),
+            },
             elements: self.elements.iter().map(|(n, e)| (*n, e.place)).collect(),
             lint: lint::findings(self, &bodies),
-            times: times(&job),
-            node_axes: node_axes.collect(),
-            element_axes: element_axes.collect(),
             toml: job.out.finish(),
             mesh_name,
             mesh,
             notes,
-            prints: self.steps.iter().map(|s| s.prints.clone()).collect(),
             filed: self.steps.iter().map(|s| s.filed.clone()).collect(),
-            node_sets: printed(self, &self.node_sets),
-            element_sets: printed(self, &self.element_sets),
-            surfaces: carried(self, &bodies),
-            pairs: job.pairs,
-            drawn,
-            references: references::printed(self, &bodies),
-            numbering: self.numbering.clone(),
             path: path.to_path_buf(),
             places: job.places,
-            files: self.files.clone(),
+            files: self.output.files.clone(),
         })
     }
 }
@@ -179,7 +186,7 @@ fn unprinted(job: &mut Job, bodies: &Bodies) {
             };
             let all = deck.node_sets.get(set).into_iter().flatten();
             let known = |n: &&u64| {
-                let turned = deck.rigid.iter().any(|r| {
+                let turned = deck.connectors.rigid.iter().any(|r| {
                     let reference = r
                         .reference
                         .is_some_and(|n| bodies.references.contains_key(&n));
@@ -277,6 +284,6 @@ pub fn read_mesh(path: &Path) -> Result<Mesh, DeckError> {
 
 /// Whether sticking is a spring of the deck's own.
 fn deck_has_stick(deck: &Deck) -> bool {
-    let mut all = deck.interactions.values();
+    let mut all = deck.contact.interactions.values();
     all.any(|i| contact::compliant(i) && i.friction.as_ref().is_some_and(|f| f.stick.is_some()))
 }

@@ -13,7 +13,7 @@ use super::toml;
 use crate::deck::MultiPoint;
 
 pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
-    for c in &job.deck.constraints {
+    for c in &job.deck.connectors.constraints {
         let (least, what) = match c.kind.as_str() {
             "PLANE" => (4, "three nodes that span the plane, and those in it"),
             "STRAIGHT" => (3, "two nodes that span the line, and those on it"),

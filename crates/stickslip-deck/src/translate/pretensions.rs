@@ -12,7 +12,7 @@ use crate::deck::{Pretension, SurfaceParts};
 pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) -> BTreeMap<u64, String> {
     let deck = job.deck;
     let mut names = BTreeMap::new();
-    for p in &deck.pretensions {
+    for p in &deck.connectors.pretensions {
         let Some(set) = section(job, bodies, sets, p) else {
             continue;
         };

@@ -14,12 +14,17 @@ use crate::deck::{Action, Deck, NodeCoupling, SurfaceParts, Tied, Way};
 /// Names the nodes that are reference points.
 pub(super) fn find(job: &mut Job, bodies: &mut Bodies) {
     let deck = job.deck;
-    let mut nodes: BTreeSet<u64> = deck.couplings.iter().map(|c| c.reference).collect();
+    let mut nodes: BTreeSet<u64> = deck
+        .connectors
+        .couplings
+        .iter()
+        .map(|c| c.reference)
+        .collect();
     for index in bodies.rigid_nodes.keys() {
-        match deck.rigid[*index].reference {
+        match deck.connectors.rigid[*index].reference {
             Some(n) => nodes.extend([n]),
             None => job.error(
-                deck.rigid[*index].place,
+                deck.connectors.rigid[*index].place,
                 "the rigid set of nodes has no reference node",
                 "give REF NODE: what the nodes follow",
             ),
@@ -43,7 +48,7 @@ pub(super) fn find(job: &mut Job, bodies: &mut Bodies) {
 /// Nodes that multi-point constraints make reference points: those that beams start from, and those without a body.
 fn constrained(job: &Job, bodies: &Bodies) -> BTreeSet<u64> {
     let mut out = BTreeSet::new();
-    for c in &job.deck.constraints {
+    for c in &job.deck.connectors.constraints {
         let loose = c.nodes.iter().filter(|n| !bodies.of_node.contains_key(n));
         out.extend(loose);
         if c.kind == "BEAM" {
@@ -56,21 +61,25 @@ fn constrained(job: &Job, bodies: &Bodies) -> BTreeSet<u64> {
 /// Nodes without a body that something moves.
 fn loose(job: &Job, bodies: &Bodies) -> BTreeSet<u64> {
     let deck = job.deck;
-    let sections = deck.springs.iter().chain(&deck.dashpots);
+    let sections = deck
+        .connectors
+        .springs
+        .iter()
+        .chain(&deck.connectors.dashpots);
     let sets = sections.map(|s| &s.set);
-    let sets = sets.chain(deck.gaps.iter().map(|g| &g.set));
-    let sets = sets.chain(deck.masses.iter().map(|(set, ..)| set));
+    let sets = sets.chain(deck.connectors.gaps.iter().map(|g| &g.set));
+    let sets = sets.chain(deck.connectors.masses.iter().map(|(set, ..)| set));
     let elements = sets.filter_map(|s| deck.element_sets.get(s)).flatten();
     let mut nodes: BTreeSet<u64> = (elements.filter_map(|e| deck.elements.get(e)))
         .flat_map(|e| e.nodes.iter().copied())
         .collect();
-    for e in &deck.equations {
+    for e in &deck.connectors.equations {
         nodes.extend(e.terms.iter().flat_map(|t| job.nodes(&t.target)));
     }
     // The reference node of a body that is rigid as a whole stands for that.
     let whole = |n: &u64| {
         let of = |r: &crate::deck::Rigid| [r.reference, r.rotation].contains(&Some(*n));
-        let index = deck.rigid.iter().position(of);
+        let index = deck.connectors.rigid.iter().position(of);
         index.is_some_and(|i| !bodies.rigid_nodes.contains_key(&i))
     };
     nodes.retain(|n| !bodies.of_node.contains_key(n) && !whole(n));
@@ -82,7 +91,7 @@ pub(super) fn printed(deck: &Deck, bodies: &Bodies) -> BTreeMap<u64, (String, bo
     let own = bodies.references.iter().filter(|(n, _)| bodies.refers(**n));
     let mut out: BTreeMap<u64, (String, bool)> =
         own.map(|(n, name)| (*n, (name.clone(), false))).collect();
-    for r in &deck.rigid {
+    for r in &deck.connectors.rigid {
         if let (Some(reference), Some(rotation)) = (r.reference, r.rotation)
             && let Some(name) = bodies.references.get(&reference)
         {
@@ -96,7 +105,7 @@ pub(super) fn printed(deck: &Deck, bodies: &Bodies) -> BTreeMap<u64, (String, bo
 pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let deck = job.deck;
     for (node, name) in &bodies.references {
-        let place = (deck.couplings.iter())
+        let place = (deck.connectors.couplings.iter())
             .find(|c| c.reference == *node)
             .map_or(Place::default(), |c| c.place);
         job.table("reference", name, place);
@@ -109,7 +118,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         }
     }
     for (index, nodes) in &bodies.rigid_nodes {
-        let rigid = &deck.rigid[*index];
+        let rigid = &deck.connectors.rigid[*index];
         let Some(reference) = rigid.reference else {
             continue;
         };
@@ -125,7 +134,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             "",
         );
     }
-    for coupling in &deck.couplings {
+    for coupling in &deck.connectors.couplings {
         coupled(job, bodies, sets, coupling);
     }
 }

@@ -60,7 +60,7 @@ fn at_rest_in_its_axes(job: &mut Job, target: &Target, place: Place) {
     if job
         .nodes(target)
         .iter()
-        .any(|n| job.deck.transforms.contains_key(n))
+        .any(|n| job.deck.properties.transforms.contains_key(n))
     {
         let help = "name nodes without one: only those of surfaces that touch count";
         job.error(

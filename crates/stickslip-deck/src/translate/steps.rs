@@ -192,7 +192,7 @@ fn gcd(a: usize, b: usize) -> usize {
 
 /// The times of `*TIME POINTS` that lie in a step, in the time of the analysis.
 pub(super) fn points(deck: &Deck, name: &str, [start, length]: [f64; 2]) -> Vec<f64> {
-    let Some(points) = deck.time_points.get(name) else {
+    let Some(points) = deck.tables.time_points.get(name) else {
         return Vec::new();
     };
     let from = if points.total_time { 0.0 } else { start };
@@ -234,7 +234,7 @@ fn output(job: &mut Job) {
     if !at.is_empty() {
         job.out.line(&format!("times = {}", toml::numbers(&at)));
     }
-    if let Some(encoding) = deck.frd {
+    if let Some(encoding) = deck.output.frd {
         job.out.line(match encoding {
             Encoding::Text => "frd = \"text\"",
             Encoding::Binary => "frd = \"binary\"",

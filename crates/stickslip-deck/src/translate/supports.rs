@@ -67,7 +67,7 @@ fn apply(job: &Job, state: &mut State, b: &Boundary, step: usize) {
 
 /// The node and direction that are meant: the displacements of a rotation node are rotations of its reference node.
 pub(super) fn turned(job: &Job, node: u64, component: usize) -> (u64, usize) {
-    let rigid = &job.deck.rigid;
+    let rigid = &job.deck.connectors.rigid;
     let of = rigid.iter().find(|r| r.rotation == Some(node));
     match of.and_then(|r| r.reference) {
         Some(reference) if component < 3 => (reference, 3 + component),
@@ -116,7 +116,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         let zero = values.iter().flatten().all(|v| v.value == 0.0 && !v.fixed);
         let all = values[..bodies.dim()].iter().all(Option::is_some);
         let turned = values[3..].iter().any(Option::is_some);
-        if turned && job.deck.transforms.contains_key(&node) {
+        if turned && job.deck.properties.transforms.contains_key(&node) {
             let message = "rotations in the local axes of a *TRANSFORM";
             job.error(
                 first.place,
@@ -125,7 +125,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             );
             continue;
         }
-        if job.deck.transforms.contains_key(&node) && !(zero && all) {
+        if job.deck.properties.transforms.contains_key(&node) && !(zero && all) {
             local(job, bodies, sets, node, &steps, &amplitude, &values);
             continue;
         }
@@ -188,7 +188,7 @@ fn lines(job: &mut Job, bodies: &Bodies, states: &[State]) -> BTreeMap<Line, [Op
             }
             // Directions that the space does not have, and rotations, which cells do not have.
             let of_node = |r: &Rigid| [r.reference, r.rotation].contains(&Some(node));
-            let turns = component >= 3 && job.deck.rigid.iter().any(of_node);
+            let turns = component >= 3 && job.deck.connectors.rigid.iter().any(of_node);
             if v.value != 0.0 && !turns && wrong.insert(v.place) {
                 job.error(
                     v.place,
@@ -280,7 +280,7 @@ fn reference(
     let Some(first) = values.iter().flatten().min_by_key(|v| v.place).cloned() else {
         return;
     };
-    let rigid = &job.deck.rigid;
+    let rigid = &job.deck.connectors.rigid;
     let Some(index) = rigid.iter().position(|r| r.reference == Some(node)) else {
         let mut all = job.deck.elements.values();
         if !all.any(|e| e.nodes.contains(&node)) {
@@ -353,7 +353,10 @@ fn local(
     let Some(first) = values.iter().flatten().next().cloned() else {
         return;
     };
-    let Some(axes) = axes::at_node(&job.deck.transforms[&node], job.deck.nodes[&node]) else {
+    let Some(axes) = axes::at_node(
+        &job.deck.properties.transforms[&node],
+        job.deck.nodes[&node],
+    ) else {
         job.error(
             first.place,
             format!(

@@ -17,7 +17,7 @@ type ByNode = BTreeMap<u64, Given<f64>>;
 /// The temperatures of nodes at the start. CalculiX starts at zero where nothing is said.
 pub(super) fn at_start(job: &Job) -> BTreeMap<u64, f64> {
     let mut at = BTreeMap::new();
-    for t in &job.deck.temperatures {
+    for t in &job.deck.start.temperatures {
         at.extend(job.nodes(&t.target).into_iter().map(|n| (n, t.value)));
     }
     at
@@ -154,7 +154,7 @@ fn course(job: &mut Job, when: &When, place: Place, label: &str) -> Option<Optio
 
 fn initial(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let mut places: BTreeMap<u64, &Temperature> = BTreeMap::new();
-    for t in &job.deck.temperatures {
+    for t in &job.deck.start.temperatures {
         places.extend(job.nodes(&t.target).into_iter().map(|n| (n, t)));
     }
     places.retain(|n, t| bodies.of_node.contains_key(n) && t.value != 0.0);

@@ -27,10 +27,24 @@ pub struct Translation {
     pub notes: Vec<Finding>,
     /// What is most likely not meant, or would be refused by CalculiX; `stickslip check` shows it.
     pub lint: Vec<Finding>,
-    /// What is printed, by step.
-    pub prints: Vec<Vec<Print>>,
+    /// What goes to the `.dat` file.
+    pub plan: PrintPlan,
     /// What is written to the `.frd` file, by step.
     pub filed: Vec<Vec<Filed>>,
+    /// Where elements are, for messages.
+    pub(super) elements: BTreeMap<u64, Place>,
+    /// The deck, for messages.
+    pub(super) path: PathBuf,
+    /// Where tables of the problem come from.
+    pub(super) places: Vec<(String, Place)>,
+    pub(super) files: Vec<PathBuf>,
+}
+
+/// What is printed of a deck, and of which of its sets.
+#[derive(Debug, Clone)]
+pub struct PrintPlan {
+    /// What is printed, by step.
+    pub prints: Vec<Vec<Print>>,
     /// Nodes of the printed sets, in the order of the deck.
     pub node_sets: BTreeMap<String, Vec<u64>>,
     /// Elements of the printed sets.
@@ -50,13 +64,6 @@ pub struct Translation {
     /// Local axes (rows) of nodes with a `*TRANSFORM`, and of elements with an `*ORIENTATION`.
     pub(crate) node_axes: BTreeMap<u64, [[f64; 3]; 3]>,
     pub(crate) element_axes: BTreeMap<u64, [[f64; 3]; 3]>,
-    /// Where elements are, for messages.
-    pub(super) elements: BTreeMap<u64, Place>,
-    /// The deck, for messages.
-    pub(super) path: PathBuf,
-    /// Where tables of the problem come from.
-    pub(super) places: Vec<(String, Place)>,
-    pub(super) files: Vec<PathBuf>,
 }
 
 impl Translation {
@@ -71,7 +78,9 @@ impl Translation {
             quantities: filed.quantities.clone(),
             due: match &filed.when {
                 When::Every(n) => Due::Every(*n),
-                When::Times(name) => Due::At(self.times.get(name).cloned().unwrap_or_default()),
+                When::Times(name) => {
+                    Due::At(self.plan.times.get(name).cloned().unwrap_or_default())
+                }
             },
         };
         let step = |filed: &Vec<Filed>| filed.iter().map(request).collect();
@@ -106,7 +115,7 @@ impl Translation {
                 let cell = number(&e.message).filter(|n| self.elements.contains_key(n));
                 let place = cell.map_or(Place::default(), |n| self.elements[&n]);
                 let message = cell.map_or(e.message.clone(), |n| {
-                    let written = format!("cell {}", self.numbering.label(n));
+                    let written = format!("cell {}", self.plan.numbering.label(n));
                     e.message.replacen(&format!("cell {n}"), &written, 1)
                 });
                 let file = self.files.get(place.file).filter(|_| place.line > 0);

@@ -151,7 +151,7 @@ fn masses(job: &mut Job, bodies: &Bodies, sets: &mut Sets, a: &Acting<Accelerati
         .flat_map(|e| deck.elements[e].nodes.iter().copied())
         .collect();
     let mut lacking: BTreeMap<u64, f64> = BTreeMap::new();
-    for (set, mass, _) in &deck.masses {
+    for (set, mass, _) in &deck.connectors.masses {
         for id in deck.element_sets.get(set).into_iter().flatten() {
             let Some(node) = deck.elements[id].nodes.first() else {
                 continue;

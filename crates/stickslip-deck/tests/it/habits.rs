@@ -91,7 +91,7 @@ fn names_of_parameters_may_be_cut_short_and_titles_may_have_any() {
         cube("N", 1, 0.0),
         sections(&["EN"])
     ));
-    assert_eq!(deck.title.as_deref(), Some("A title, with a comma"));
+    assert_eq!(deck.output.title.as_deref(), Some("A title, with a comma"));
     let notes: Vec<String> = deck.notes.iter().map(ToString::to_string).collect();
     assert!(
         notes

@@ -159,8 +159,8 @@ fn bodies_are_called_like_their_instances() {
     ] {
         assert!(t.toml.contains(name), "{name}: {}", t.toml);
     }
-    assert_eq!(t.numbering.label(207), "Solid block-2.7");
-    assert_eq!(t.numbering.label(301), "1");
+    assert_eq!(t.plan.numbering.label(207), "Solid block-2.7");
+    assert_eq!(t.plan.numbering.label(301), "1");
 }
 
 /// A part of one cube with sets, and what stands behind the assembly.
@@ -291,10 +291,10 @@ fn the_rotation_follows_the_translation() {
 #[test]
 fn local_axes_go_with_the_instance() {
     let d = tetrahedron("", "1., 0., 0.\n0., 0., 0., 1., 0., 0., 90.\n");
-    let axis = d.transforms[&4];
+    let axis = d.properties.transforms[&4];
     near3(axis.a, [1.0, 0.0, 0.0], 1e-15);
     near3(axis.b, [1.0, -1.0, 0.0], 1e-15);
-    near3(d.transforms[&2].b, [0.0, 0.0, 1.0], 1e-15);
+    near3(d.properties.transforms[&2].b, [0.0, 0.0, 1.0], 1e-15);
 }
 
 #[test]
@@ -308,8 +308,11 @@ fn sections_have_the_orientation_of_their_part_or_of_the_model() {
     };
     let axes = "*Orientation, name=O\n1., 0., 0., 0., 1., 0.\n";
     let axis = |d: &Deck| {
-        let name = d.sections[0].orientation.clone().expect("an orientation");
-        match &d.orientations[&name].local {
+        let name = d.properties.sections[0]
+            .orientation
+            .clone()
+            .expect("an orientation");
+        match &d.properties.orientations[&name].local {
             Local::Axes(axes) => axes[0],
             other => panic!("{other:?}"),
         }

@@ -29,7 +29,7 @@ fn case_blanks_comments_and_line_ends_do_not_matter() {
     assert_eq!(odd.node_sets, plain.node_sets);
     assert_eq!(odd.nodes, plain.nodes);
     assert_eq!(
-        odd.materials["STEEL"].elastic,
+        odd.properties.materials["STEEL"].elastic,
         Some(Elastic::Isotropic([2.1e5, 0.3]))
     );
     assert_eq!(odd.elements.len(), 1);
@@ -40,7 +40,7 @@ fn numbers_are_those_of_fortran() {
     let deck = with(
         "*MATERIAL, NAME=A\n*ELASTIC\n1.5+3, .25D0\n*MATERIAL, NAME=B\n*ELASTIC\n+2.d-3, 1\n*MATERIAL, NAME=C\n*ELASTIC\n7, -1.-1\n",
     );
-    let of = |name: &str| deck.materials[name].elastic.clone();
+    let of = |name: &str| deck.properties.materials[name].elastic.clone();
     assert_eq!(of("A"), Some(Elastic::Isotropic([1500.0, 0.25])));
     assert_eq!(of("B"), Some(Elastic::Isotropic([2e-3, 1.0])));
     assert_eq!(of("C"), Some(Elastic::Isotropic([7.0, -0.1])));
@@ -55,7 +55,7 @@ fn keyword_lines_go_on_after_a_comma() {
     let deck = with(
         "*SURFACE INTERACTION,\n** between\n  NAME=SI\n*NSET, NSET=A,\n1, 2\n*NSET,\nNSET=B,\nGENERATE\n1, 3, 2\n",
     );
-    assert!(deck.interactions.contains_key("SI"));
+    assert!(deck.contact.interactions.contains_key("SI"));
     // A comma too many before data is no continuation.
     assert_eq!(deck.node_sets["A"], [1, 2]);
     assert_eq!(deck.node_sets["B"], [1, 3]);
@@ -222,7 +222,7 @@ fn included_files_stand_in_the_middle_of_data() {
         "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n*INCLUDE, INPUT=\"nodes.inp\",\n*ELEMENT, TYPE=C3D4, ELSET=E\n1, 1, 2, 3, 4\n",
     );
     let deck = Deck::read(&folder.join("job.inp")).unwrap_or_else(|e| panic!("{e}"));
-    assert_eq!((deck.nodes.len(), deck.files.len()), (4, 4));
+    assert_eq!((deck.nodes.len(), deck.output.files.len()), (4, 4));
     assert_eq!(deck.node_sets["A"], [1]);
     // A mistake is found in the file it is in.
     write("set.inp", "*NSET, NSET=A\n1, 9\n");
@@ -238,7 +238,7 @@ fn included_files_stand_in_the_middle_of_data() {
 #[test]
 fn keywords_that_do_not_matter_are_noted_and_others_refused() {
     let deck = with("*PREPRINT, ECHO=NO\n*RESTART, WRITE\n*CONDUCTIVITY\n");
-    assert!(deck.materials.is_empty());
+    assert!(deck.properties.materials.is_empty());
     assert_eq!(
         deck.notes
             .iter()

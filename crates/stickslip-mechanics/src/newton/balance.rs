@@ -44,7 +44,7 @@ impl Balance {
             force.assemble(&stage, out)?;
         }
         statistics.evaluations += 1;
-        statistics.seconds_contact += started.elapsed().as_secs_f64();
+        statistics.seconds.contact += started.elapsed().as_secs_f64();
         let mut forces = vec![0.0; at.u.len()];
         let others = system.bulk.forces(&at.u, &mut forces);
         // Forces in play are those on the points: what a rigid body gets from two sides may cancel.

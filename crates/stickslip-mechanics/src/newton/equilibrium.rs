@@ -179,7 +179,7 @@ fn solve(
         let target = balance.target(settings.tolerance);
         FORCING * target / f64::sqrt(size).max(f64::MIN_POSITIVE)
     };
-    system.hold_back(b, out);
+    system.damp_step(b, out);
     // Bodies that are being followed roll on their anchors, whose steps are tuned to how their own points curve.
     let straight = system.patience() == 0 && system.bulk.prefers_straight(out);
     match curvature {

@@ -297,7 +297,7 @@ impl Grids {
         }
         let started = Instant::now();
         self.follow(operator, statistics).map_err(describe)?;
-        statistics.seconds_factor += started.elapsed().as_secs_f64();
+        statistics.seconds.factor += started.elapsed().as_secs_f64();
         let mut x = vec![0.0; b.len()];
         let mut spent = 0;
         for most in [2 * PATIENCE, MOST] {
@@ -308,7 +308,7 @@ impl Grids {
             let report = made.gmres(operator, b, &mut x, tolerance, most);
             spent += report.iterations;
             statistics.krylov += report.iterations;
-            statistics.seconds_solve += started.elapsed().as_secs_f64();
+            statistics.seconds.solve += started.elapsed().as_secs_f64();
             if !report.relative_residual.is_finite() {
                 return Err(not_finite());
             }
@@ -321,7 +321,7 @@ impl Grids {
             }
             let started = Instant::now();
             self.set_up(operator, statistics).map_err(describe)?;
-            statistics.seconds_factor += started.elapsed().as_secs_f64();
+            statistics.seconds.factor += started.elapsed().as_secs_f64();
         }
         if self
             .made
@@ -358,7 +358,7 @@ impl Grids {
             if !made.refresh(operator, gaps)? {
                 return self.set_up(operator, statistics);
             }
-            statistics.refreshes += 1;
+            statistics.hierarchies.refreshes += 1;
             return Ok(());
         }
         let (added, assembled) = split(operator, &made.gaps);
@@ -400,10 +400,10 @@ impl Grids {
         let matrix = transformed(operator.matrix, &gaps, &assembled);
         let mut levels = Multigrid::new(&matrix, operator.fixed, hints, settings)?;
         levels.update(&added);
-        statistics.setups += 1;
-        statistics.levels = levels.levels().len();
-        statistics.operator_complexity = levels.operator_complexity();
-        statistics.hierarchy_bytes = levels.bytes();
+        statistics.hierarchies.setups += 1;
+        statistics.hierarchies.levels = levels.levels().len();
+        statistics.hierarchies.operator_complexity = levels.operator_complexity();
+        statistics.hierarchies.bytes = levels.bytes();
         self.made = Some(Made {
             fixed: operator.fixed.to_vec(),
             gaps,

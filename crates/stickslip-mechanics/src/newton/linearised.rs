@@ -168,13 +168,13 @@ impl Linearised {
         if !covered {
             let symbolic = Symbolic::analyze(matrix, fixed, couplings)?;
             statistics.analyses += 1;
-            statistics.factor_nonzeros = symbolic.factor_nonzeros();
+            statistics.factors.nonzeros = symbolic.factor_nonzeros();
             self.symbolic = Some(Arc::new(symbolic));
             self.analysed = Arc::new(couplings.to_vec());
             self.fixed = fixed.to_vec();
         }
         let ordering = started.elapsed().as_secs_f64();
-        statistics.seconds_order += ordering;
+        statistics.seconds.order += ordering;
         let started = Instant::now();
         let dense: Vec<(&[usize], &[f64])> = blocks
             .iter()
@@ -185,12 +185,12 @@ impl Linearised {
             self.factor = Some(Factor::new(symbolic, matrix, &dense)?);
             self.factored = Arc::new(stand_ins(blocks));
             statistics.factorisations += 1;
-            statistics.flops += symbolic.flops();
-            statistics.factor_bytes = 8 * symbolic.factor_nonzeros() as u64;
+            statistics.factors.flops += symbolic.flops();
+            statistics.factors.bytes = 8 * symbolic.factor_nonzeros() as u64;
         }
         self.stale = false;
         let factoring = started.elapsed().as_secs_f64();
-        statistics.seconds_factor += factoring;
+        statistics.seconds.factor += factoring;
         if statistics.linear_solve == 0.0 {
             statistics.linear_solve = ordering + factoring;
         }
@@ -259,7 +259,7 @@ impl Linearised {
             },
         );
         statistics.krylov += report.iterations;
-        statistics.seconds_solve += started.elapsed().as_secs_f64();
+        statistics.seconds.solve += started.elapsed().as_secs_f64();
         if !report.relative_residual.is_finite() {
             return Err(not_finite());
         }

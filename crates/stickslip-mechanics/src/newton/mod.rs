@@ -62,6 +62,6 @@ pub use progress::{Converged, Progress};
 pub use settings::Settings;
 pub use solve::Newton;
 pub use sparse_bulk::{Origin, SparseBulk};
-pub use statistics::Statistics;
+pub use statistics::{FactorSizes, Hierarchies, Seconds, Statistics, Substructures};
 pub use strategy::{Fallback, Strategy};
 pub use system::System;

@@ -14,12 +14,9 @@ pub struct Statistics {
     pub analyses: usize,
     /// Numeric factorisations.
     pub factorisations: usize,
-    /// Substructures factored.
-    pub substructures_made: usize,
-    /// Substructures taken from memory: of an earlier run, step or increment.
-    pub substructures_shared: usize,
-    /// Substructures read from files.
-    pub substructures_read: usize,
+    /// Substructures of condensed bodies.
+    #[serde(flatten)]
+    pub substructures: Substructures,
     /// Krylov iterations.
     pub krylov: usize,
     /// Factorisations of matrices of gaps and slips.
@@ -28,38 +25,17 @@ pub struct Statistics {
     pub kept_gaps: usize,
     /// Evaluations of all interfaces, with their tangents or without.
     pub evaluations: usize,
-    /// Seconds in looking for substructures made before, reading them included.
-    pub seconds_find: f64,
-    /// Seconds in symbolic factorisation.
-    pub seconds_order: f64,
-    /// Seconds in numeric factorisation.
-    pub seconds_factor: f64,
-    /// Seconds in solves.
-    pub seconds_solve: f64,
-    /// Seconds in inverting what partial factorisations leave.
-    pub seconds_condense: f64,
-    /// Seconds in finding interiors.
-    pub seconds_recover: f64,
-    /// Seconds in search, pairing and assembly of interfaces.
-    pub seconds_contact: f64,
-    /// Nonzeros of the last factor.
-    pub factor_nonzeros: usize,
-    /// Additions and multiplications of all numeric factorisations and inverses.
-    pub flops: f64,
-    /// Bytes of the last factor and what was condensed with it.
-    pub factor_bytes: u64,
+    /// Times.
+    #[serde(flatten)]
+    pub seconds: Seconds,
+    /// Sizes of factors.
+    #[serde(flatten)]
+    pub factors: FactorSizes,
     /// Seconds that ordering, one factorisation and one solution of the same bodies took or would take.
     pub linear_solve: f64,
-    /// Multigrid hierarchies made.
-    pub setups: usize,
-    /// Hierarchies whose finest level was made anew.
-    pub refreshes: usize,
-    /// Levels of the last hierarchy; 0 without one.
-    pub levels: usize,
-    /// Scalars on all its levels over those on the finest.
-    pub operator_complexity: f64,
-    /// Its size `[bytes]`.
-    pub hierarchy_bytes: usize,
+    /// Hierarchies of multigrid.
+    #[serde(flatten)]
+    pub hierarchies: Hierarchies,
 }
 
 crate::keep!(Statistics {
@@ -69,27 +45,109 @@ crate::keep!(Statistics {
     columns,
     analyses,
     factorisations,
-    substructures_made,
-    substructures_shared,
-    substructures_read,
+    substructures,
     krylov,
     reduced,
     kept_gaps,
     evaluations,
-    seconds_find,
-    seconds_order,
-    seconds_factor,
-    seconds_solve,
-    seconds_condense,
-    seconds_recover,
-    seconds_contact,
-    factor_nonzeros,
-    flops,
-    factor_bytes,
+    seconds,
+    factors,
     linear_solve,
+    hierarchies
+});
+
+/// Where substructures of condensed bodies came from.
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
+pub struct Substructures {
+    /// Substructures factored.
+    #[serde(rename = "substructures-made")]
+    pub made: usize,
+    /// Substructures taken from memory: of an earlier run, step or increment.
+    #[serde(rename = "substructures-shared")]
+    pub shared: usize,
+    /// Substructures read from files.
+    #[serde(rename = "substructures-read")]
+    pub read: usize,
+}
+
+crate::keep!(Substructures { made, shared, read });
+
+/// Seconds by what they were spent on.
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
+pub struct Seconds {
+    /// Seconds in looking for substructures made before, reading them included.
+    #[serde(rename = "seconds-find")]
+    pub find: f64,
+    /// Seconds in symbolic factorisation.
+    #[serde(rename = "seconds-order")]
+    pub order: f64,
+    /// Seconds in numeric factorisation.
+    #[serde(rename = "seconds-factor")]
+    pub factor: f64,
+    /// Seconds in solves.
+    #[serde(rename = "seconds-solve")]
+    pub solve: f64,
+    /// Seconds in inverting what partial factorisations leave.
+    #[serde(rename = "seconds-condense")]
+    pub condense: f64,
+    /// Seconds in finding interiors.
+    #[serde(rename = "seconds-recover")]
+    pub recover: f64,
+    /// Seconds in search, pairing and assembly of interfaces.
+    #[serde(rename = "seconds-contact")]
+    pub contact: f64,
+}
+
+crate::keep!(Seconds {
+    find,
+    order,
+    factor,
+    solve,
+    condense,
+    recover,
+    contact
+});
+
+/// How large factors are, and what they cost.
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
+pub struct FactorSizes {
+    /// Nonzeros of the last factor.
+    #[serde(rename = "factor-nonzeros")]
+    pub nonzeros: usize,
+    /// Additions and multiplications of all numeric factorisations and inverses.
+    pub flops: f64,
+    /// Bytes of the last factor and what was condensed with it.
+    #[serde(rename = "factor-bytes")]
+    pub bytes: u64,
+}
+
+crate::keep!(FactorSizes {
+    nonzeros,
+    flops,
+    bytes
+});
+
+/// Hierarchies of multigrid.
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Hierarchies {
+    /// Multigrid hierarchies made.
+    pub setups: usize,
+    /// Hierarchies whose finest level was made anew.
+    pub refreshes: usize,
+    /// Levels of the last hierarchy; 0 without one.
+    pub levels: usize,
+    /// Scalars on all its levels over those on the finest.
+    pub operator_complexity: f64,
+    /// Its size `[bytes]`.
+    #[serde(rename = "hierarchy-bytes")]
+    pub bytes: usize,
+}
+
+crate::keep!(Hierarchies {
     setups,
     refreshes,
     levels,
     operator_complexity,
-    hierarchy_bytes
+    bytes
 });

@@ -55,11 +55,11 @@ impl System<'_> {
     }
 
     /// Adds to the tangent of the last evaluation what holds back the step that forces `b` ask for. In motion inertia does.
-    pub(super) fn hold_back(&self, b: &[f64], out: &mut Assembler) {
+    pub(super) fn damp_step(&self, b: &[f64], out: &mut Assembler) {
         if self.rate.is_none() {
             self.contact
                 .iter()
-                .for_each(|force| force.hold_back(b, out));
+                .for_each(|force| force.damp_step(b, out));
         }
     }
 

@@ -93,7 +93,7 @@ pub trait Force: Send {
     fn curve(&self, _out: &mut Assembler) {}
 
     /// Adds to the tangent of the last evaluation what holds a step back where forces `b` by dof `[N]`, out of balance, would lead farther than what the tangent knows.
-    fn hold_back(&self, _b: &[f64], _out: &mut Assembler) {}
+    fn damp_step(&self, _b: &[f64], _out: &mut Assembler) {}
 
     /// The state of the last evaluation, a [tentative](Assembler::tentative) one with tangent, is the next iterate: as if it had been evaluated
     /// for good.

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::doctor::{Finding, singular_help};
 use super::view::View;
-use crate::contact::interface::{InterfaceDefinition, gaps_at};
+use crate::contact::interface::{Conditions, InterfaceDefinition, gaps_at};
 use crate::error::RunError;
 use crate::math::add;
 use crate::model::contact::Contact;
@@ -126,15 +126,16 @@ pub(crate) fn explain_singular(view: &View, failure: &StepFailure) -> RunError {
 }
 
 /// Gaps at the start, by interface.
-pub(crate) fn start_gaps(model: &Model, frame: &Frame, contact: &mut Contact) -> Vec<Vec<f64>> {
+pub(crate) fn start_gaps(
+    model: &Model,
+    frame: &Frame,
+    contact: &mut Contact,
+    conditions: &[Conditions],
+) -> Vec<Vec<f64>> {
     let end = soon(model, &frame.state);
     let stage = beginning(&frame.state, &end);
-    let interfaces = contact
-        .interfaces
-        .iter_mut()
-        .zip(&frame.contacts.interfaces);
-    let gaps = interfaces.map(|(i, history)| gaps_at(&mut i.force(history), &stage));
-    gaps.collect()
+    let mut forces = contact.forces(&frame.contacts, conditions).interfaces;
+    forces.iter_mut().map(|i| gaps_at(i, &stage)).collect()
 }
 
 /// A state at the start of the analysis as it is a moment later.

@@ -39,7 +39,7 @@ impl View<'_> {
     pub(crate) fn judge_bodies(&self, limits: &Limits, gate: &mut Gate) {
         let fixed = self.constraints(self.frame.state.t).fixed;
         let mut springs = vec![0.0; self.frame.forces.len()];
-        for &(dof, k) in self.model.springs.iter().flat_map(|s| s.entries()) {
+        for &(dof, k) in self.model.actions.springs.iter().flat_map(|s| s.entries()) {
             springs[dof] -= k * self.frame.state.u[dof];
         }
         let inertia = self.inertia().map(|inertia| {

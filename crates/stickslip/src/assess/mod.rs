@@ -15,5 +15,7 @@ pub(crate) mod view;
 
 pub use diagnosis::{BodyReport, CheckReport, FreeMode, InterfaceReport};
 pub use doctor::Peak;
-pub use quality::{Figure, Gate, InterfaceSummary, NumericalStiffness, Points, told_apart};
+pub use quality::{
+    Figure, Gate, Imbalance, InterfaceSummary, NumericalStiffness, Points, told_apart,
+};
 pub use view::View;

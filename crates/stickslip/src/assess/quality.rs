@@ -293,7 +293,8 @@ impl View<'_> {
         }
         let ways = self.model.bodies.iter().map(|body| self.way(body));
         let way = ways.fold(0.0, f64::max);
-        for (acting, interface) in self.contact.interfaces.iter().zip(self.contacts()) {
+        let all = self.contact.interfaces.iter().zip(&self.solver.conditions);
+        for ((acting, conditions), interface) in all.zip(self.contacts()) {
             let q = look::quality(interface);
             let r = look::resultant(interface, &self.frame.state.u);
             let place = format!("interface {}", interface.name);
@@ -341,7 +342,7 @@ impl View<'_> {
             let uneven = [q.oscillation * r.total, r.total];
             note(&OSCILLATION, uneven, limits.oscillation);
             if let Some(limit) = longest_way(self.model, &interface) {
-                let way = [look::slid(acting), limit];
+                let way = [look::slid(acting, conditions), limit];
                 note(&EXPLICIT_WEAR, way, limits.explicit_wear);
             }
             if let Some(pair) = look::false_shear(interface, &self.frame.state.u) {
@@ -374,7 +375,7 @@ impl View<'_> {
         }
         let ledger = &self.frame.ledger;
         let moves = self.model.moves();
-        let limit = limits.energy.unwrap_or(self.model.energy_limit);
+        let limit = limits.energy.unwrap_or(self.model.solution.energy_limit);
         // Where nothing happens there are no energies to compare with, but forces that have moved by their rounding.
         let forces = gate.largest(&EQUILIBRIUM, None);
         let least = still_energy(self.model, forces);
@@ -470,12 +471,21 @@ pub struct InterfaceSummary {
     /// Largest unwanted penetration relative to the elastic approach, `2 U / F` of the model's strain energy and this interface's
     /// force.
     pub relative_to_approach: f64,
+    /// How far what the two sides receive is out of balance.
+    #[serde(flatten)]
+    pub balance: Imbalance,
+    /// What the numerical stiffness of the enforcement does to the result; `null` where there is none.
+    pub numerical_stiffness: Option<NumericalStiffness>,
+}
+
+/// How far what the two sides of an interface receive is out of balance.
+#[derive(Debug, Clone, Copy, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Imbalance {
     /// Out-of-balance between what the two sides receive, relative to the force.
     pub action_reaction: f64,
     /// Sum of the moments of what the two sides receive, relative to the force times the size of the interface.
     pub moment: f64,
-    /// What the numerical stiffness of the enforcement does to the result; `null` where there is none.
-    pub numerical_stiffness: Option<NumericalStiffness>,
 }
 
 /// Contact points by what they do.
@@ -541,8 +551,10 @@ pub(crate) fn interfaces(view: &View, gate: &Gate, watches: &[Watch]) -> Vec<Int
             friction_work: (!tied).then(|| look::energy(interface).dissipated),
             quality,
             relative_to_approach: ratio(quality.penetration, whole),
-            action_reaction: ratio(norm(b.force), b.scale.max(floor(&ACTION_REACTION))),
-            moment: ratio(norm(b.moment), (b.scale * b.size).max(floor(&MOMENT))),
+            balance: Imbalance {
+                action_reaction: ratio(norm(b.force), b.scale.max(floor(&ACTION_REACTION))),
+                moment: ratio(norm(b.moment), (b.scale * b.size).max(floor(&MOMENT))),
+            },
             numerical_stiffness: factor
                 .filter(|_| energy > 0.0)
                 .map(|factor| NumericalStiffness {

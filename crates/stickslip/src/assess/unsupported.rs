@@ -17,7 +17,7 @@ const WAITS: &str = "support these motions, hold them by weak springs (`[load.NA
 
 impl View<'_> {
     /// What ends a quasi-static step before it begins: a motion is free in it that nothing can hold, whatever touches.
-    pub(crate) fn refuse_unheld(&self) -> Option<(Finding, RunError)> {
+    pub(crate) fn refuse_rigid_modes(&self) -> Option<(Finding, RunError)> {
         let step = &self.model.steps[self.frame.step];
         let middle = 0.5 * (step.start + step.end);
         let all = modes(self.model);

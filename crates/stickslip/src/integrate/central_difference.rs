@@ -11,7 +11,7 @@ use super::explicit::{Explicit, RayleighDamping, unstable};
 use super::integrator::Integrator;
 use super::sight::frames_here;
 use crate::contact::look;
-use crate::model::contact::Contact;
+use crate::model::contact::{Contact, ContactForces};
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::model::ledger::Flow;
@@ -41,7 +41,7 @@ impl Integrator for Explicit {
         model: &Model,
         frame: &Frame,
         contact: &mut Contact,
-        _solver: &mut Solver,
+        solver: &mut Solver,
         trial: Trial,
     ) -> Result<Accepted, StepFailure> {
         self.check_length(model, frame, contact, trial)?;
@@ -55,7 +55,8 @@ impl Integrator for Explicit {
         drift.predict(self, &constraints.fixed, dt, &mut at);
         let more = self.correct(model, &*contact, &constraints, &mut drift, &mut at, dt)?;
         let u = drift.place(&at.u);
-        self.evaluate(model, frame, contact, &at, dt, &u)?;
+        let forces = contact.forces(&frame.contacts, &solver.conditions);
+        self.evaluate(model, frame, forces, &at, dt, &u)?;
         let external = if !self.loaded {
             frame.load.clone()
         } else if model.frames.any_rigid() {
@@ -208,7 +209,7 @@ impl Explicit {
         &mut self,
         model: &Model,
         frame: &Frame,
-        contact: &mut Contact,
+        mut forces: ContactForces,
         at: &State,
         dt: f64,
         u: &[f64],
@@ -232,7 +233,6 @@ impl Explicit {
             rate: None,
             frames: frames.as_ref(),
         };
-        let mut forces = contact.forces(&frame.contacts);
         for interface in &mut forces.interfaces {
             interface.begin();
             interface.prepare(&stage);

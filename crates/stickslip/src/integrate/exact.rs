@@ -32,7 +32,7 @@ const ROUNDED: f64 = 4.0 * f64::EPSILON;
 
 /// Rows of all that is held.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Exact {
+struct Rows {
     /// Numbers of the rows of couplings, which come first, and sums that they should have.
     coupled: Vec<(usize, f64)>,
     /// Interface, point and direction of the rows of ties.
@@ -42,18 +42,27 @@ pub(crate) struct Exact {
     /// Terms of all rows, by the dofs that move, and these dofs in order.
     terms: Vec<Vec<(usize, f64)>>,
     dofs: Vec<usize>,
+}
+
+/// All that is held, and the forces that hold it.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Exact {
+    rows: Rows,
     /// Forces along the rows.
     forces: Vec<f64>,
     /// What is shown on supports beyond that, by dof `[N]`; empty if nothing is.
     beyond: Vec<f64>,
 }
 
-crate::keep!(Exact {
+crate::keep!(Rows {
     coupled,
     tied,
     ties,
     terms,
-    dofs,
+    dofs
+});
+crate::keep!(Exact {
+    rows,
     forces,
     beyond
 });
@@ -90,91 +99,12 @@ impl Mobility<'_> {
     }
 }
 
-impl Exact {
-    /// The rows that hold at time `t`, those of ties as they were at the last evaluation. What is known of the forces `before` is kept.
-    pub fn gather(
-        model: &Model,
-        frame: &Frame,
-        contact: &Contact,
-        t: f64,
-        before: &Exact,
-    ) -> Exact {
-        let contacts = &frame.contacts;
-        let links = &model.links;
-        let coupled = contact.couplings.exact_rows(&contacts.couplings, t);
-        let mut out = Exact::default();
-        for (i, row, target) in coupled {
-            let known = before.coupled.get(out.coupled.len());
-            let terms = match known.is_some_and(|(k, _)| *k == i) {
-                true => before.terms[out.coupled.len()].clone(),
-                false => links.moved(row.terms()),
-            };
-            out.coupled.push((i, target));
-            out.terms.push(terms);
-            out.forces.push(contacts.couplings.exact_force(i));
-        }
-        let forces = before.forces[before.coupled.len()..].iter();
-        let mut known = before.tied.iter().zip(forces);
-        let interfaces = contact.interfaces.iter().zip(&contacts.interfaces);
-        for (k, (interface, history)) in interfaces.enumerate() {
-            for row in look::tie_rows(interface, history) {
-                let of = [k, row.point, row.direction];
-                // The rows of a tie are the same from one increment to the next.
-                let force = known.next().filter(|(known, _)| **known == of);
-                out.tied.push(of);
-                out.ties.push([row.area, row.off, row.size]);
-                out.terms.push(links.moved(row.terms));
-                out.forces.push(force.map_or(0.0, |(_, f)| *f));
-            }
-        }
-        out.list_dofs();
-        out
-    }
-
+impl Rows {
     fn list_dofs(&mut self) {
         let all = self.terms.iter().flatten();
         self.dofs = all.map(|(dof, _)| *dof).collect();
         self.dofs.sort_unstable();
         self.dofs.dedup();
-    }
-
-    /// Takes what couplings hold at time `t`.
-    pub fn lead(&mut self, links: &Links, contact: &Contact, frame: &Frame, t: f64) {
-        let memory = &frame.contacts.couplings;
-        let rows: Vec<_> = contact.couplings.exact_rows(memory, t).collect();
-        let known = |(row, (i, _)): (&(usize, _, f64), &(usize, f64))| row.0 == *i;
-        let same = rows.len() == self.coupled.len() && rows.iter().zip(&self.coupled).all(known);
-        if !same {
-            let count = self.coupled.len();
-            let before: BTreeMap<usize, f64> = (self.coupled.iter().zip(&self.forces))
-                .map(|((i, _), f)| (*i, *f))
-                .collect();
-            let force = |i: &usize| before.get(i).copied().unwrap_or(0.0);
-            let terms = rows.iter().map(|(_, row, _)| links.moved(row.terms()));
-            self.terms.splice(..count, terms);
-            let forces = rows.iter().map(|(i, ..)| force(i));
-            self.forces.splice(..count, forces);
-            self.list_dofs();
-        }
-        self.coupled = rows.into_iter().map(|(i, _, target)| (i, target)).collect();
-    }
-
-    /// The forces along the rows, which become zero. Nothing is off where a step begins.
-    pub fn begin(&mut self) -> Vec<f64> {
-        self.ties.iter_mut().for_each(|[_, off, _]| *off = 0.0);
-        let forces = self.forces.clone();
-        self.forces.fill(0.0);
-        forces
-    }
-
-    /// Adds forces along the rows.
-    pub fn add_forces(&mut self, more: &[f64]) {
-        self.forces.iter_mut().zip(more).for_each(|(f, m)| *f += m);
-    }
-
-    /// Whether nothing is held.
-    pub fn is_empty(&self) -> bool {
-        self.terms.is_empty()
     }
 
     /// Sums of the rows.
@@ -260,6 +190,87 @@ impl Exact {
             false => Err(contradiction()),
         }
     }
+}
+
+impl Exact {
+    /// The rows that hold at time `t`, those of ties as they were at the last evaluation. What is known of the forces `before` is kept.
+    pub fn gather(
+        model: &Model,
+        frame: &Frame,
+        contact: &Contact,
+        t: f64,
+        before: &Exact,
+    ) -> Exact {
+        let contacts = &frame.contacts;
+        let links = &model.links;
+        let coupled = contact.couplings.exact_rows(&contacts.couplings, t);
+        let mut out = Exact::default();
+        for (i, row, target) in coupled {
+            let known = before.rows.coupled.get(out.rows.coupled.len());
+            let terms = match known.is_some_and(|(k, _)| *k == i) {
+                true => before.rows.terms[out.rows.coupled.len()].clone(),
+                false => links.moved(row.terms()),
+            };
+            out.rows.coupled.push((i, target));
+            out.rows.terms.push(terms);
+            out.forces.push(contacts.couplings.exact_force(i));
+        }
+        let forces = before.forces[before.rows.coupled.len()..].iter();
+        let mut known = before.rows.tied.iter().zip(forces);
+        let interfaces = contact.interfaces.iter().zip(&contacts.interfaces);
+        for (k, (interface, history)) in interfaces.enumerate() {
+            for row in look::tie_rows(interface, history) {
+                let of = [k, row.point, row.direction];
+                // The rows of a tie are the same from one increment to the next.
+                let force = known.next().filter(|(known, _)| **known == of);
+                out.rows.tied.push(of);
+                out.rows.ties.push([row.area, row.off, row.size]);
+                out.rows.terms.push(links.moved(row.terms));
+                out.forces.push(force.map_or(0.0, |(_, f)| *f));
+            }
+        }
+        out.rows.list_dofs();
+        out
+    }
+
+    /// Takes what couplings hold at time `t`.
+    pub fn lead(&mut self, links: &Links, contact: &Contact, frame: &Frame, t: f64) {
+        let memory = &frame.contacts.couplings;
+        let rows: Vec<_> = contact.couplings.exact_rows(memory, t).collect();
+        let known = |(row, (i, _)): (&(usize, _, f64), &(usize, f64))| row.0 == *i;
+        let same =
+            rows.len() == self.rows.coupled.len() && rows.iter().zip(&self.rows.coupled).all(known);
+        if !same {
+            let count = self.rows.coupled.len();
+            let before: BTreeMap<usize, f64> = (self.rows.coupled.iter().zip(&self.forces))
+                .map(|((i, _), f)| (*i, *f))
+                .collect();
+            let force = |i: &usize| before.get(i).copied().unwrap_or(0.0);
+            let terms = rows.iter().map(|(_, row, _)| links.moved(row.terms()));
+            self.rows.terms.splice(..count, terms);
+            let forces = rows.iter().map(|(i, ..)| force(i));
+            self.forces.splice(..count, forces);
+            self.rows.list_dofs();
+        }
+        self.rows.coupled = rows.into_iter().map(|(i, _, target)| (i, target)).collect();
+    }
+
+    /// It where a step begins and nothing is off, without forces yet; and the forces along the rows.
+    pub fn begin(mut self) -> (Exact, Vec<f64>) {
+        self.rows.ties.iter_mut().for_each(|[_, off, _]| *off = 0.0);
+        let forces = vec![0.0; self.forces.len()];
+        (Exact { forces, ..self }, self.forces)
+    }
+
+    /// Adds forces along the rows.
+    pub fn add_forces(&mut self, more: &[f64]) {
+        self.forces.iter_mut().zip(more).for_each(|(f, m)| *f += m);
+    }
+
+    /// Whether nothing is held.
+    pub fn is_empty(&self) -> bool {
+        self.rows.terms.is_empty()
+    }
 
     /// Corrects what an increment of length `dt` leads to, displacements `u` and velocities `v` by dof, so that all holds at its end; `placed` are the displacements in space, and `from` those at the start. Forces along the rows
     /// are returned, which would do the same from the start of the increment on.
@@ -274,23 +285,26 @@ impl Exact {
     ) -> Result<Vec<f64>, StepFailure> {
         let State { u, v, .. } = at;
         let ways: Vec<f64> = u.iter().zip(from).map(|(u, from)| u - from).collect();
-        let (sums, along) = (self.sums(placed), self.sums(&ways));
-        let targets = self.coupled.iter().map(|(_, target)| *target);
+        let (sums, along) = (self.rows.sums(placed), self.rows.sums(&ways));
+        let targets = self.rows.coupled.iter().map(|(_, target)| *target);
         let coupled = sums.iter().zip(targets).map(|(sum, target)| sum - target);
-        let tied = self.ties.iter().zip(&along[self.coupled.len()..]);
+        let tied = self.rows.ties.iter().zip(&along[self.rows.coupled.len()..]);
         let tied = tied.map(|([_, off, _], way)| off + way);
         let off: Vec<f64> = coupled.chain(tied).collect();
-        let mut size = self.sizes(placed);
-        for (size, [.., of]) in size[self.coupled.len()..].iter_mut().zip(&self.ties) {
+        let mut size = self.rows.sizes(placed);
+        for (size, [.., of]) in size[self.rows.coupled.len()..]
+            .iter_mut()
+            .zip(&self.rows.ties)
+        {
             *size += of;
         }
         let mut impulses = vec![0.0; off.len()];
-        self.solve(mobility, &off, &size, &mut impulses)?;
+        self.rows.solve(mobility, &off, &size, &mut impulses)?;
         let mut push = vec![0.0; u.len()];
-        self.spread(&impulses, &mut push);
+        self.rows.spread(&impulses, &mut push);
         let mut change = vec![0.0; u.len()];
-        mobility.accelerate(&self.dofs, &push, &mut change);
-        for &dof in &self.dofs {
+        mobility.accelerate(&self.rows.dofs, &push, &mut change);
+        for &dof in &self.rows.dofs {
             u[dof] -= change[dof];
             v[dof] -= change[dof] / dt;
         }
@@ -302,10 +316,10 @@ impl Exact {
     /// Lets the start of an increment have had these forces as well, which [`correct`](Self::correct) found.
     pub fn restart(&self, mobility: &Mobility, more: &[f64], from: &mut Frame) {
         let mut push = vec![0.0; from.state.a.len()];
-        self.spread(more, &mut push);
+        self.rows.spread(more, &mut push);
         let mut change = vec![0.0; push.len()];
-        mobility.accelerate(&self.dofs, &push, &mut change);
-        for &dof in &self.dofs {
+        mobility.accelerate(&self.rows.dofs, &push, &mut change);
+        for &dof in &self.rows.dofs {
             from.state.a[dof] -= change[dof];
             if mobility.fixed[dof] && !from.forces.is_empty() {
                 let beyond = self.beyond.get(dof).copied().unwrap_or(0.0);
@@ -318,21 +332,18 @@ impl Exact {
     pub fn balance(&mut self, mobility: &Mobility, a: &[f64]) -> Result<(), StepFailure> {
         let free = |dof: usize| if mobility.fixed[dof] { 0.0 } else { a[dof] };
         let mut seen = vec![0.0; a.len()];
-        for &dof in &self.dofs {
+        for &dof in &self.rows.dofs {
             seen[dof] = free(dof);
         }
-        let (b, size) = (self.sums(&seen), self.sizes(&seen));
+        let (b, size) = (self.rows.sums(&seen), self.rows.sizes(&seen));
         // The forces of the increment before are a good guess.
-        let mut forces = self.forces.clone();
-        self.solve(mobility, &b, &size, &mut forces)?;
-        self.forces = forces;
-        Ok(())
+        self.rows.solve(mobility, &b, &size, &mut self.forces)
     }
 
     /// Accelerations of the dofs in question by forces `f` by dof.
     pub fn accelerations(&self, mobility: &Mobility, f: &[f64]) -> Vec<f64> {
         let mut out = vec![0.0; f.len()];
-        mobility.accelerate(&self.dofs, f, &mut out);
+        mobility.accelerate(&self.rows.dofs, f, &mut out);
         out
     }
 
@@ -350,14 +361,15 @@ impl Exact {
         let extra = |k: usize| more.get(k).map_or(0.0, |m| 0.5 * m);
         let of = |(k, &(i, _)): (usize, &(usize, f64))| {
             let to = self.forces[k];
-            let from = match before.coupled.get(k).is_some_and(|(b, _)| *b == i) {
+            let from = match before.rows.coupled.get(k).is_some_and(|(b, _)| *b == i) {
                 true => before.forces[k] + 2.0 * extra(k),
                 false => to,
             };
             let shown = to + extra(k);
             (i, ExactForce { from, to, shown })
         };
-        let forces: BTreeMap<usize, ExactForce> = self.coupled.iter().enumerate().map(of).collect();
+        let forces: BTreeMap<usize, ExactForce> =
+            self.rows.coupled.iter().enumerate().map(of).collect();
         (contact.couplings).hold_exactly(&forces, &mut residual.residual);
         self.pull(contact, |_| 0.0, Some(&mut residual));
         links.transfer(&mut residual.residual);
@@ -373,9 +385,9 @@ impl Exact {
         more: impl Fn(usize) -> f64,
         mut out: Option<&mut Assembler>,
     ) {
-        let count = self.coupled.len();
+        let count = self.rows.coupled.len();
         let mut tractions: Vec<Vec<(usize, [f64; 3])>> = vec![Vec::new(); contact.interfaces.len()];
-        let rows = self.tied.iter().zip(&self.ties);
+        let rows = self.rows.tied.iter().zip(&self.rows.ties);
         for (k, (&[interface, point, direction], [area, ..])) in rows.enumerate() {
             // The force along a row acts against what is off; a traction presses apart.
             let traction = -(self.forces[count + k] + more(count + k)) / area;
@@ -404,13 +416,13 @@ impl Exact {
         contact: &mut Contact,
         forces: &mut [f64],
     ) {
-        if more.is_empty() || more.len() != self.terms.len() {
+        if more.is_empty() || more.len() != self.rows.terms.len() {
             return;
         }
         let half: Vec<f64> = more.iter().map(|m| 0.5 * m).collect();
         self.pull(contact, |k| half[k], None);
         let mut beyond = vec![0.0; forces.len()];
-        self.spread(&half, &mut beyond);
+        self.rows.spread(&half, &mut beyond);
         for ((force, more), fixed) in forces.iter_mut().zip(&mut beyond).zip(fixed) {
             *more = if *fixed { *more } else { 0.0 };
             *force += *more;

@@ -11,7 +11,7 @@ use std::sync::Arc;
 use super::exact::{Exact, Mobility};
 use super::onset::{AFTER, initial_contact, look_at_contact};
 use crate::body::internal::{InternalForce, largest_eigenvalue};
-use crate::contact::interface::{History, Interface, use_springs};
+use crate::contact::interface::{Conditions, History, Interface, use_springs};
 use crate::error::{Error, RunError};
 use crate::model::contact::Contact;
 use crate::model::definition::{Dynamic, Model};
@@ -110,6 +110,7 @@ impl Explicit {
             }
         }
         let springs: Vec<(usize, f64)> = model
+            .actions
             .springs
             .iter()
             .flat_map(|s| s.entries().iter().copied())
@@ -287,6 +288,7 @@ impl Explicit {
         model: &Model,
         frame: &mut Frame,
         contact: &mut Contact,
+        conditions: &[Conditions],
         dynamic: &Dynamic,
     ) -> Result<Self, Error> {
         let n = frame.state.u.len();
@@ -304,11 +306,11 @@ impl Explicit {
         energy.initial += energy.kinetic - before;
         let step = &model.steps[frame.step];
         let soon = step.start + AFTER * (step.end - step.start);
-        let still = model.supports.iter().all(|s| {
+        let still = model.actions.supports.iter().all(|s| {
             !s.schedule.active(soon) || s.entries.iter().all(|e| e.hold || e.value == 0.0)
         });
         let constraints = frame.constraints(model, soon);
-        explicit.loaded = !model.loads.is_empty() || model.heat.is_some();
+        explicit.loaded = !model.actions.loads.is_empty() || model.actions.heat.is_some();
         let contacts = Arc::make_mut(&mut frame.contacts);
         for (interface, history) in contact.interfaces.iter_mut().zip(&mut contacts.interfaces) {
             frame.ledger.initial += use_springs(interface, history, true);
@@ -319,7 +321,7 @@ impl Explicit {
         couplings.fit_springs(soon, explicit.frequency, &explicit.inverse, &model.links);
         // What is in contact already bounds the first increment, too: the last evaluation, if there was one, was of other laws and multipliers.
         let alone = explicit.stable_alone().min(step.increments.largest);
-        look_at_contact(model, frame, contact, soon, alone);
+        look_at_contact(model, frame, contact, conditions, soon, alone);
         let stable = explicit.stable_increment(model, frame, contact);
         let dt = stable.min(step.increments.largest);
         let limit = explicit.stable(explicit.contact_frequency(model, frame, contact));
@@ -330,7 +332,8 @@ impl Explicit {
         }
         explicit.begun.stable = if stable.is_finite() { stable } else { 0.0 };
         frame.load = frame.external(model, soon);
-        frame.contact = initial_contact(model, frame, contact, soon, dt).map_err(|e| e.at(soon))?;
+        frame.contact =
+            initial_contact(model, frame, contact, conditions, soon, dt).map_err(|e| e.at(soon))?;
         explicit.start_forces(model, frame, contact);
         explicit.start_acceleration(model, frame, &constraints);
         explicit.start_exactly(model, frame, contact, &constraints)?;
@@ -349,8 +352,9 @@ impl Explicit {
         let strain: f64 = both.map(|(f, u)| f * u).sum();
         let strain = 0.5 * self.stored.unwrap_or(strain);
         let energy = &mut frame.ledger;
-        let strain =
-            strain + contact.couplings.view(&frame.contacts.couplings).stored() + energy.thermal;
+        let strain = strain
+            + contact.couplings.view(&frame.contacts.couplings).stored()
+            + energy.entered.thermal;
         energy.initial += strain - energy.strain;
         energy.strain = strain;
         model.links.transfer(&mut self.force);
@@ -399,11 +403,11 @@ impl Explicit {
     ) -> Result<(), Error> {
         let step = &model.steps[frame.step];
         let soon = step.start + AFTER * (step.end - step.start);
-        let mut exact = Exact::gather(model, frame, contact, soon, &Exact::default());
-        if exact.is_empty() {
+        let gathered = Exact::gather(model, frame, contact, soon, &Exact::default());
+        if gathered.is_empty() {
             return Ok(());
         }
-        let acting = exact.begin();
+        let (mut exact, acting) = gathered.begin();
         let found = exact.balance(&self.mobility(constraints), &frame.state.a);
         found.map_err(|e| e.at(soon))?;
         let mut more = Assembler::new(frame.contact.len());

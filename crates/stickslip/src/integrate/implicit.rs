@@ -138,8 +138,8 @@ impl Implicit {
             && is_impulse(model, frame, &self.dynamic, contact, inertia, times);
         let scheme = self.meeting(impulse);
         let weights = scheme.weights(impulse);
-        let interfaces = contact.interfaces.iter_mut();
-        interfaces.for_each(|i| i.conditions.impulses = impulse);
+        let conditions = solver.conditions.iter_mut();
+        conditions.for_each(|c| c.impulses = impulse);
         let dt = inertia.ready(
             entries(&solver.stiffness),
             scheme.alphas,
@@ -244,7 +244,7 @@ impl Implicit {
             internal,
             state: at,
         };
-        check_candidates(contact)?;
+        check_candidates(contact, &solver.conditions)?;
         let (easy, travel) = scheme.judge(model, frame, inertia, dt, &solved)?;
         scheme.locate(model, frame, contact, trial)?;
         let mut solved = solved;
@@ -264,7 +264,7 @@ impl Implicit {
                 rate: Some(rate),
                 frames,
             };
-            let mut forces = contact.forces(&frame.contacts);
+            let mut forces = contact.forces(&frame.contacts, &solver.conditions);
             let (interfaces, v) = (&mut forces.interfaces, &mut solved.state.v);
             flow.impact = stop(model, inertia, &fixed, interfaces, &stage, v)?;
             inertia.lead(model, contact, trial.to, &fixed, &mut solved.state.v);

@@ -26,7 +26,7 @@
 //!
 //! **Invariant:** a force is evaluated from committed history and the state of evaluation, never from the previous
 //! iteration. Only `commit` advances history. What an interface knows has four types: `History`, plain data that commits write, all that reports read, and all that an
-//! increment keeps which waits for its report; `Attempt`, which begins anew from it; `Conditions`, what holds while it is evaluated; `Cache`, what can be made again and is
+//! increment keeps which waits for its report; `Attempt`, which begins anew from it; `Conditions`, what holds while it is evaluated, an argument that the solver owns; `Cache`, what can be made again and is
 //! never copied. What outlives a rejected attempt is cache: candidates of the search and the factor that preconditions. The multipliers of a perturbed Lagrangian are unknowns like displacements; they change
 //! through `update_internal` with the Newton step, and `begin` resets them. Five things depend on the course of an attempt: the stiffness of an augmented
 //! Lagrangian is raised where updates gain little, points that keep changing status are frozen for a while, a point

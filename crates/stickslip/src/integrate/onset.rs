@@ -7,8 +7,8 @@ use super::integrator::Integrator;
 use super::sight::frames_here;
 use crate::body::couplings::{Couplings, MotionStart};
 use crate::contact::interface::{
-    add_initial_forces, adopt_light_tractions, adopt_tractions, evaluate_laws,
-    presses_light_points, set_masses, tried_tractions,
+    Conditions, add_initial_forces, adopt_light_tractions, adopt_tractions, evaluate_laws,
+    mass_per_area, presses_light_points, tried_tractions,
 };
 use crate::contact::look;
 use crate::error::Error;
@@ -67,12 +67,15 @@ impl Implicit {
             step.increments.initial,
         );
         frame.load = frame.external(model, t);
-        let pressed = self.press_light(model, frame, contact, solver, t, dt);
-        let evaluated = initial_contact(model, frame, contact, t, dt).map_err(|e| e.at(t))?;
+        let pressed = self.equilibrate_massless(model, frame, contact, solver, t, dt);
+        let evaluated = initial_contact(model, frame, contact, &solver.conditions, t, dt)
+            .map_err(|e| e.at(t))?;
         let before = std::mem::replace(&mut frame.contact, evaluated);
         match self.tried_contact(model, frame, contact, solver, dt) {
             Some(forces) => frame.contact = forces,
-            None => keep_light(model, frame, contact, solver, t, &pressed.unwrap_or(before)),
+            None => {
+                keep_massless_forces(model, frame, contact, solver, t, &pressed.unwrap_or(before))
+            }
         }
         let lag = self.alphas.lag() * dt;
         initial_acceleration(model, frame, contact, solver, t, lag).map_err(|e| e.at(t).into())
@@ -80,7 +83,7 @@ impl Implicit {
 
     /// Lets points without mass go where overlap presses them, which takes them no time, with the forces there; `None` where none overlap, and where no equilibrium
     /// is found. What that strains bodies by is work of the overlap. Damping has no part in it: it would make any work of what takes no time.
-    fn press_light(
+    fn equilibrate_massless(
         &self,
         model: &Model,
         frame: &mut Frame,
@@ -97,7 +100,7 @@ impl Implicit {
             rate: None,
             frames: None,
         };
-        let mut forces = contact.forces(&frame.contacts);
+        let mut forces = contact.forces(&frame.contacts, &solver.conditions);
         let mut interfaces = forces.interfaces.iter_mut();
         if !interfaces.any(|i| presses_light_points(i, &stage)) {
             return None;
@@ -115,9 +118,9 @@ impl Implicit {
         inertia.forget_matrices();
         let accepted = tried.ok()?;
         let contacts = Arc::make_mut(&mut frame.contacts);
-        for (interface, history) in contact.interfaces.iter().zip(&mut contacts.interfaces) {
-            let tried = tried_tractions(interface);
-            adopt_light_tractions(history, &interface.conditions, &tried);
+        let all = contact.interfaces.iter().zip(&mut contacts.interfaces);
+        for ((interface, history), conditions) in all.zip(&solver.conditions) {
+            adopt_light_tractions(history, conditions, &tried_tractions(interface));
         }
         let moved = frame.state.u.iter_mut().zip(&accepted.state.u);
         for ((u, to), _) in moved.zip(&inertia.light).filter(|(_, light)| **light) {
@@ -129,7 +132,7 @@ impl Implicit {
             false => solver.strain_energy(model, &frame.state.u),
         };
         let energy = &mut frame.ledger;
-        let strain = strain + energy.thermal;
+        let strain = strain + energy.entered.thermal;
         energy.belt_work += strain - energy.strain;
         energy.strain = strain;
         frame.motion.internal = internal;
@@ -211,7 +214,7 @@ impl Implicit {
 fn start_motion(
     model: &Model,
     frame: &mut Frame,
-    contact: &mut Contact,
+    contact: &Contact,
     solver: &mut Solver,
     dynamic: &Dynamic,
 ) {
@@ -228,8 +231,8 @@ fn start_motion(
         }
     };
     let masses = inertia.at_points(model);
-    for interface in &mut contact.interfaces {
-        set_masses(interface, &masses);
+    for (interface, conditions) in contact.interfaces.iter().zip(&mut solver.conditions) {
+        conditions.inertia = mass_per_area(interface, &masses);
     }
     let before = inertia.kinetic_energy(&frame.state.v);
     model.apply_initial_velocities(frame.step, &mut frame.state.v);
@@ -305,6 +308,7 @@ pub(crate) fn initial_contact(
     model: &Model,
     frame: &mut Frame,
     contact: &mut Contact,
+    conditions: &[Conditions],
     t: f64,
     dt: f64,
 ) -> Result<Vec<f64>, StepFailure> {
@@ -321,8 +325,8 @@ pub(crate) fn initial_contact(
     let mut forces = vec![0.0; u.len()];
     let contacts = Arc::make_mut(&mut frame.contacts);
     let interfaces = contact.interfaces.iter_mut().zip(&mut contacts.interfaces);
-    let stored: Result<f64, StepFailure> = interfaces
-        .map(|(i, history)| add_initial_forces(i, history, &stage, &mut forces))
+    let stored: Result<f64, StepFailure> = (interfaces.zip(conditions))
+        .map(|((i, history), c)| add_initial_forces(i, history, c, &stage, &mut forces))
         .sum();
     let stored = stored?;
     frame.ledger.initial += stored;
@@ -344,6 +348,7 @@ pub(crate) fn look_at_contact(
     model: &Model,
     frame: &Frame,
     contact: &mut Contact,
+    conditions: &[Conditions],
     t: f64,
     dt: f64,
 ) {
@@ -356,7 +361,7 @@ pub(crate) fn look_at_contact(
         rate: None,
         frames: frames.as_ref(),
     };
-    let mut forces = contact.forces(&frame.contacts);
+    let mut forces = contact.forces(&frame.contacts, conditions);
     let interfaces = forces.interfaces.iter_mut();
     interfaces.for_each(|i| evaluate_laws(i, &stage));
 }
@@ -386,7 +391,7 @@ fn coupling_forces(links: &Links, count: usize, add: impl Fn(&mut [f64])) -> Vec
 }
 
 /// Points without mass go on with the forces that they had at rest.
-fn keep_light(
+fn keep_massless_forces(
     model: &Model,
     frame: &mut Frame,
     contact: &Contact,

@@ -189,8 +189,8 @@ impl<'a> Sight<'a> {
 
     /// What acts from outside at a time, where displacements are as seen.
     pub fn load(&self, model: &Model, u: &[f64], t: f64, out: &mut Vec<f64>) {
-        let turning = model.frames.any_rigid() || model.loads.iter().any(|l| l.follows);
-        if (model.loads.is_empty() || !turning) && !out.is_empty() {
+        let turning = model.frames.any_rigid() || model.actions.loads.iter().any(|l| l.follows);
+        if (model.actions.loads.is_empty() || !turning) && !out.is_empty() {
             return;
         }
         let seen = self.out(&model.mesh.points, u);
@@ -255,7 +255,7 @@ impl<'a> Sight<'a> {
         let worst = places.map(|(x, k)| (norm(*x) * k[0]).powi(2)).sum::<f64>();
         let rounding = ROUNDINGS * f64::EPSILON * worst.sqrt();
         let scale = end.size.max(size(&converged.contact));
-        let enough = (model.settings.tolerance * scale)
+        let enough = (model.solution.settings.tolerance * scale)
             .max(LEFT * size(&converged.forces))
             .max(rounding);
         if off <= enough {

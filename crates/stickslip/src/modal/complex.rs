@@ -8,6 +8,7 @@ use super::outcome::{ModalOutcome, Mode};
 use super::quadratic::{Eigen, residuals, solve};
 use super::shifted::{Root, Shifted};
 use super::{export, map, sensitivity};
+use crate::contact::interface::Conditions;
 use crate::error::RunError;
 use crate::linear::Complex;
 use crate::math::vector::dot;
@@ -24,6 +25,7 @@ pub(crate) fn modes(
     model: &Model,
     frame: &Frame,
     contact: &mut Contact,
+    conditions: &[Conditions],
     linear: &Linear,
     plan: &ComplexPlan,
 ) -> Result<ModalOutcome, RunError> {
@@ -68,7 +70,7 @@ pub(crate) fn modes(
     if plan.map.is_some() || plan.export {
         let over = plan.map.as_ref().map_or(MapOver::default(), |m| m.over);
         let mut at_speed = |factor: f64| {
-            let mut found = linear.at_speed(model, frame, contact, factor);
+            let mut found = linear.at_speed(model, frame, contact, conditions, factor);
             if !plan.friction_damping {
                 found.drag.clear();
             }

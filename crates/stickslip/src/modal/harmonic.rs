@@ -100,7 +100,7 @@ fn forces(model: &Model, linear: &Linear, plan: &HarmonicPlan) -> Pair {
     let mut forces = [0, 1].map(|_| vec![0.0; linear.size()]);
     for (name, phase) in &plan.loads {
         let (s, c) = phase.sin_cos();
-        for load in model.loads.iter().filter(|l| l.name == *name) {
+        for load in model.actions.loads.iter().filter(|l| l.name == *name) {
             for &(dof, force) in &load.entries {
                 forces[0][dof] += c * force;
                 forces[1][dof] += s * force;
@@ -265,14 +265,14 @@ impl Reduced {
 
 /// Columns of displacements of probes.
 fn columns(model: &Model) -> Vec<String> {
-    let probes = model.probes.iter();
+    let probes = model.reports.probes.iter();
     let all = probes.flat_map(|p| (1..=model.dofs.dim).map(move |c| format!("{}.U{c}", p.name)));
     all.collect()
 }
 
 fn values(model: &Model, shape: &Pair) -> Vec<[f64; 2]> {
     let dofs = model.dofs;
-    let probes = model.probes.iter();
+    let probes = model.reports.probes.iter();
     let all = probes.flat_map(|p| (0..dofs.dim).map(move |c| dofs.of(p.point, c)));
     all.map(|dof| [shape[0][dof], shape[1][dof]]).collect()
 }

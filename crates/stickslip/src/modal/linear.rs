@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::bound::{Bound, Sparse};
 use crate::body::MassKind;
 use crate::body::couplings::{Meets, Row};
-use crate::contact::interface::{InterfaceForce, LinearPoint, linearise};
+use crate::contact::interface::{Conditions, LinearPoint, linearise};
 use crate::contact::response::Status;
 use crate::error::RunError;
 use crate::linear::BlockCsr;
@@ -111,7 +111,7 @@ impl Linear {
             parts.couple(&model.links, block, stiffness, damping);
         }
         let bound = Bound::new(equations, &fixed);
-        let lines = points(step, frame, contact, 1.0);
+        let lines = points(model, frame, contact, &solver.conditions, 1.0);
         let mut linear = Linear::empty(model.dofs.dim, fixed, bound);
         linear.add_all(model, &lines, &mut parts);
         parts.assemble(model, contact, solver, &mut linear);
@@ -154,10 +154,10 @@ impl Linear {
         model: &Model,
         frame: &Frame,
         contact: &mut Contact,
+        conditions: &[Conditions],
         factor: f64,
     ) -> Linear {
-        let step = &model.steps[frame.step];
-        let lines = points(step, frame, contact, factor);
+        let lines = points(model, frame, contact, conditions, factor);
         let mut linear = Linear::empty(model.dofs.dim, self.fixed.clone(), self.bound.clone());
         linear.add_all(model, &lines, &mut Parts::default());
         linear
@@ -362,11 +362,13 @@ pub(crate) fn fault(frame: &Frame, message: impl Into<String>) -> RunError {
 
 /// Contact points by interface, at the state that was reached.
 fn points(
-    step: &Step,
+    model: &Model,
     frame: &Frame,
     contact: &mut Contact,
+    conditions: &[Conditions],
     pace: f64,
 ) -> Vec<(String, Vec<LinearPoint>)> {
+    let step = &model.steps[frame.step];
     let from = &frame.state;
     let mut at = from.clone();
     at.t = soon(step);
@@ -377,19 +379,14 @@ fn points(
         rate: None,
         frames: None,
     };
-    let interfaces = contact
-        .interfaces
-        .iter_mut()
-        .zip(&frame.contacts.interfaces);
-    let lines = interfaces.map(|(i, history)| {
-        let conditions = i.conditions.at_pace(pace);
-        let mut force = InterfaceForce {
-            conditions: &conditions,
-            ..i.force(history)
-        };
-        (force.name.clone(), linearise(&mut force, &stage))
-    });
-    lines.collect()
+    let all = contact.interfaces.iter().zip(conditions);
+    let at_pace = all.map(|(i, c)| c.at_pace(model.sliding(frame.step, &i.name), pace));
+    let conditions: Vec<Conditions> = at_pace.collect();
+    let mut forces = contact.forces(&frame.contacts, &conditions).interfaces;
+    let lines = forces.iter_mut();
+    lines
+        .map(|i| (i.name.clone(), linearise(i, &stage)))
+        .collect()
 }
 
 /// Dense symmetric blocks between points.

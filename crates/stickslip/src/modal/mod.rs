@@ -60,7 +60,9 @@ pub(crate) fn compute(
     }
     match plan {
         Modal::Real(plan) => real::modes(model, frame, &linear, plan),
-        Modal::Complex(plan) => complex::modes(model, frame, contact, &linear, plan),
+        Modal::Complex(plan) => {
+            complex::modes(model, frame, contact, &solver.conditions, &linear, plan)
+        }
         Modal::Harmonic(plan) => harmonic::response(model, frame, &linear, plan),
     }
 }

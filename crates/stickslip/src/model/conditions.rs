@@ -21,7 +21,7 @@ impl Frame {
         });
         let was = |s: &Support| before.is_some_and(|t| s.schedule.active(t));
         let mut supported = vec![false; self.state.u.len()];
-        for support in &model.supports {
+        for support in &model.actions.supports {
             if support.schedule.active(middle) {
                 for e in &support.entries {
                     supported[e.dof] = true;
@@ -54,7 +54,7 @@ impl Frame {
             self.load[dof] += force;
         }
         let mut seen = vec![false; self.state.u.len()];
-        for support in model.supports.iter().filter(|s| was(s)) {
+        for support in model.actions.supports.iter().filter(|s| was(s)) {
             for e in &support.entries {
                 if !supported[e.dof] && !seen[e.dof] {
                     seen[e.dof] = true;
@@ -67,7 +67,7 @@ impl Frame {
     /// Constraints at a time.
     pub(crate) fn constraints(&self, model: &Model, t: f64) -> Constraints {
         let mut constraints = Constraints::none(model.dofs);
-        for support in &model.supports {
+        for support in &model.actions.supports {
             if !support.schedule.active(t) {
                 continue;
             }
@@ -121,14 +121,14 @@ impl Frame {
 
     fn loads_at(&self, model: &Model, t: f64, u: &[f64]) -> Vec<f64> {
         let mut external = vec![0.0; self.state.u.len()];
-        for load in model.loads.iter().filter(|l| !l.follows) {
+        for load in model.actions.loads.iter().filter(|l| !l.follows) {
             load.external(t, &mut external);
         }
         if !model.frames.is_empty() {
             let (points, u) = (&model.mesh.points, self.expected(model, t, u));
             model.frames.transfer(points, &u, &mut external);
         }
-        let mut following = model.loads.iter().filter(|l| l.follows).peekable();
+        let mut following = model.actions.loads.iter().filter(|l| l.follows).peekable();
         if model.corotations.is_empty() {
             let (mesh, space) = (&*model.mesh, model.space);
             following.for_each(|load| load.external_at(t, mesh, space, u, &mut external));

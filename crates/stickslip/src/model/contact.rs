@@ -3,7 +3,10 @@
 use super::definition::Step;
 use super::frame::{ContactMemory, Frame};
 use crate::body::couplings::{Couplings, CouplingsForce, CouplingsView};
-use crate::contact::interface::{self, ContactView, History, Interface, InterfaceForce};
+use crate::contact::interface::{
+    self, Conditions, ContactView, History, Interface, InterfaceForce,
+};
+use crate::contact::look;
 use crate::system::{Force, Stage, State};
 
 /// Interfaces and couplings: where bodies touch and what ties their points.
@@ -33,11 +36,18 @@ impl ContactForces<'_> {
 }
 
 impl Contact {
-    /// All of them as forces that go on from what they know.
-    pub(crate) fn forces<'a>(&'a mut self, memory: &'a ContactMemory) -> ContactForces<'a> {
+    /// All of them as forces that go on from what they know, interfaces under these conditions.
+    pub(crate) fn forces<'a>(
+        &'a mut self,
+        memory: &'a ContactMemory,
+        conditions: &'a [Conditions],
+    ) -> ContactForces<'a> {
         let interfaces = self.interfaces.iter_mut().zip(&memory.interfaces);
+        let interfaces = interfaces.zip(conditions);
         ContactForces {
-            interfaces: interfaces.map(|(i, history)| i.force(history)).collect(),
+            interfaces: interfaces
+                .map(|((i, history), c)| i.force(history, c))
+                .collect(),
             couplings: self.couplings.force(&memory.couplings),
         }
     }
@@ -75,9 +85,14 @@ impl Contact {
     }
 
     /// What they know after an attempt that is accepted.
-    pub(crate) fn commit(&mut self, memory: &ContactMemory, stage: &Stage) -> ContactMemory {
-        let interfaces = self.interfaces.iter_mut().zip(&memory.interfaces);
-        let next = interfaces.map(|(i, history)| interface::commit(&mut i.force(history), stage));
+    pub(crate) fn commit(
+        &mut self,
+        memory: &ContactMemory,
+        conditions: &[Conditions],
+        stage: &Stage,
+    ) -> ContactMemory {
+        let mut forces = self.forces(memory, conditions).interfaces;
+        let next = forces.iter_mut().map(|i| interface::commit(i, stage));
         ContactMemory {
             interfaces: next.collect(),
             couplings: self.couplings.commit(&memory.couplings, stage),
@@ -107,13 +122,21 @@ impl Contact {
         for (name, change) in &step.changes {
             let all = self.interfaces.iter_mut().zip(&memory.interfaces);
             for (interface, history) in all.filter(|(i, _)| i.name == *name) {
-                bring(interface::change(interface, history, change));
+                let before = look::energy(interface.view(history)).stored;
+                interface.definition = interface::changed(interface, change);
+                bring(look::energy(interface.view(history)).stored - before);
             }
         }
     }
 
     /// Tells the interfaces that begin to act in the step at hand with which gaps they do.
-    pub(crate) fn begin_acting(&mut self, memory: &mut ContactMemory, step: &Step, state: &State) {
+    pub(crate) fn begin_acting(
+        &mut self,
+        memory: &mut ContactMemory,
+        conditions: &[Conditions],
+        step: &Step,
+        state: &State,
+    ) {
         let span = [step.start, step.end];
         let mut at = state.clone();
         at.t = step.start + 1e-9 * (step.end - step.start);
@@ -124,8 +147,9 @@ impl Contact {
             rate: None,
             frames: None,
         };
-        for (interface, history) in self.interfaces.iter_mut().zip(&mut memory.interfaces) {
-            interface::begin_acting(interface, history, &stage, span);
+        let all = self.interfaces.iter_mut().zip(&mut memory.interfaces);
+        for ((interface, history), conditions) in all.zip(conditions) {
+            interface::begin_acting(interface, history, conditions, &stage, span);
         }
     }
 }

@@ -9,7 +9,7 @@ use super::limits::Limits;
 use super::modal::{KickPlan, Modal, SteadyPlan};
 use crate::body::loads::{Load, Spring};
 use crate::body::{Elastic, MassKind, Space};
-use crate::contact::interface::Change;
+use crate::contact::interface::{Change, Steady};
 use crate::fatigue::FatigueModel;
 use crate::io::frd::Encoding;
 use crate::math::{Mat3, Vec3};
@@ -43,6 +43,22 @@ pub struct Model {
     pub bodies: Vec<Body>,
     /// The reference points.
     pub references: Vec<Reference>,
+    /// What acts on bodies, and how they begin.
+    pub actions: Actions,
+    /// Steps, in order of time.
+    pub steps: Vec<Step>,
+    /// What is reported of an analysis, and how it is judged.
+    pub reports: ReportPlan,
+    /// How increments are solved.
+    pub solution: SolutionPlan,
+    /// Tables of the problem that nothing uses, obstacles first: `amplitude.NAME`.
+    pub unused: Vec<String>,
+    /// Interfaces, by name, whose roughness is a sum of waves, and the shortest of these `[m]`.
+    pub waves: Vec<(String, f64)>,
+}
+
+/// What acts on bodies, and how they begin.
+pub struct Actions {
     /// Loads.
     pub loads: Vec<Load>,
     /// Temperatures, where some are given.
@@ -55,12 +71,10 @@ pub struct Model {
     pub supports: Vec<Support>,
     /// Initial displacements and velocities.
     pub initials: Vec<Initial>,
-    /// Steps, in order of time.
-    pub steps: Vec<Step>,
-    /// Quantities for the history.
-    pub probes: Vec<Probe>,
-    /// What is written when.
-    pub output: OutputPlan,
+}
+
+/// How increments are solved.
+pub struct SolutionPlan {
     /// Settings of Newton's method.
     pub settings: Settings,
     /// How its systems are solved.
@@ -73,10 +87,14 @@ pub struct Model {
     pub energy_limit: f64,
     /// Whether bodies that only contact can hold are followed until it does.
     pub follow: bool,
-    /// Tables of the problem that nothing uses, obstacles first: `amplitude.NAME`.
-    pub unused: Vec<String>,
-    /// Interfaces, by name, whose roughness is a sum of waves, and the shortest of these `[m]`.
-    pub waves: Vec<(String, f64)>,
+}
+
+/// What is reported of an analysis, and how it is judged.
+pub struct ReportPlan {
+    /// Quantities for the history.
+    pub probes: Vec<Probe>,
+    /// What is written when.
+    pub output: OutputPlan,
     /// What counts as a good solution.
     pub quality: Limits,
 }
@@ -219,6 +237,17 @@ impl Model {
         self.steps.iter().any(|s| s.dynamic.is_some())
     }
 
+    /// The sliding of an interface that lasts in a step, if any does. Modes are about that of the last step in which something moved, where a belt runs all the time,
+    /// whoever set it going.
+    pub(crate) fn sliding(&self, step: usize, interface: &str) -> Option<Steady> {
+        let mut before = self.steps[..=step].iter().rev();
+        let moving = before.find(|s| s.modal.is_none());
+        let plan = moving.and_then(|s| s.steady.as_ref());
+        let modal = self.steps[step].modal.as_ref();
+        let plan = plan.map(|plan| plan.of(interface));
+        plan.or(modal.map(|_| Steady::default()))
+    }
+
     /// What multigrid has to know of the mesh; see [`Factors::multigrid`](crate::newton::Factors::multigrid).
     pub fn places(&self) -> BodyPoints {
         let meshed = self.mesh.points.len();
@@ -291,7 +320,7 @@ impl Model {
 
     /// Sets the velocities that are given for the start of a step.
     pub(crate) fn apply_initial_velocities(&self, step: usize, v: &mut [f64]) {
-        for initial in self.initials.iter().filter(|i| i.step == step) {
+        for initial in self.actions.initials.iter().filter(|i| i.step == step) {
             for &(dof, value) in &initial.velocities {
                 v[dof] = value;
             }

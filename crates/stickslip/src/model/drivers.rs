@@ -75,7 +75,7 @@ impl Scene<'_> {
                 push.each.push((key, sum));
             }
         };
-        for load in &model.loads {
+        for load in &model.actions.loads {
             let factor = load.schedule.at(t);
             if factor != 0.0 {
                 of(Some(format!("load.{}", load.name)), &load.entries, factor);
@@ -193,7 +193,12 @@ impl Scene<'_> {
             }
         }
         let mut out = Vec::new();
-        for support in model.supports.iter().filter(|s| s.schedule.active(t)) {
+        for support in model
+            .actions
+            .supports
+            .iter()
+            .filter(|s| s.schedule.active(t))
+        {
             let (from, to) = (support.schedule.at(start), support.schedule.at(t));
             let moved = support.entries.iter().filter(|e| {
                 let (point, _) = model.dofs.locate(e.dof);

@@ -68,7 +68,7 @@ impl Scene<'_> {
     pub(crate) fn free_bodies(&self, t: f64) -> Vec<FreeBody> {
         let model = self.model;
         let mut held = self.supported(t);
-        for spring in &model.springs {
+        for spring in &model.actions.springs {
             for &(dof, stiffness) in spring.entries() {
                 held[dof] |= stiffness > 0.0;
             }

@@ -57,28 +57,29 @@ pub struct EnergyLedger {
     /// By how much `friction` may be off at most in quasi-static increments, as nobody knows when within them points began to slide. It shows in
     /// no balance; smaller increments make it smaller.
     pub uncertain: f64,
-    /// By how much `strain` is more than it were without thermal strain. Thermal forces enter their work like loads; with this it is that of the
-    /// strain itself.
+    /// What next entries count from.
     #[serde(skip)]
-    pub(crate) thermal: f64,
-    /// Energy that it would take to hold all bodies as they are meshed: rounding of the strain energy is relative to it.
-    #[serde(skip)]
-    held: f64,
-    #[serde(skip)]
-    passed: f64,
-    #[serde(skip)]
-    moved: f64,
-    #[serde(skip)]
-    exceeded: f64,
-    #[serde(skip)]
-    impacts: f64,
-    /// Work that frames of bodies that turn have handed on so far: nothing keeps it, and yet it is in play.
-    #[serde(skip)]
-    transmitted: f64,
+    pub(crate) entered: Entered,
     /// Energy brought in by initial velocities and displacements.
     pub initial: f64,
     /// What is left of the balance: supplied less stored and dissipated.
     pub residual: f64,
+}
+
+/// What has been entered so far beside the energies that are reported `[J]`.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Entered {
+    /// By how much `strain` is more than it were without thermal strain. Thermal forces enter their work like loads; with this it is that of the
+    /// strain itself.
+    pub(crate) thermal: f64,
+    /// Energy that it would take to hold all bodies as they are meshed: rounding of the strain energy is relative to it.
+    held: f64,
+    passed: f64,
+    moved: f64,
+    exceeded: f64,
+    impacts: f64,
+    /// Work that frames of bodies that turn have handed on so far: nothing keeps it, and yet it is in play.
+    transmitted: f64,
 }
 
 /// How well the balance of energies closes over the whole analysis.
@@ -112,38 +113,38 @@ impl EnergyLedger {
         self.kinetic = kinetic;
         let [thermal, held] = flow.thermal;
         self.strain = strain + thermal;
-        self.external_work += thermal - self.thermal;
-        self.thermal = thermal;
-        self.held = held;
+        self.external_work += thermal - self.entered.thermal;
+        self.entered.thermal = thermal;
+        self.entered.held = held;
         let sum = |part: fn(&Energy) -> f64| interfaces.iter().map(part).sum::<f64>();
         self.contact = sum(|e| e.stored);
         self.friction = sum(|e| e.dissipated);
-        self.impacts += flow.impact;
-        self.transmitted += flow.transmitted;
-        self.contact_damping = sum(|e| e.damped) + self.impacts;
+        self.entered.impacts += flow.impact;
+        self.entered.transmitted += flow.transmitted;
+        self.contact_damping = sum(|e| e.damped) + self.entered.impacts;
         self.uncertain = sum(|e| e.uncertain);
         let (passed, moved) = (sum(|e| e.path), sum(|e| e.work));
         let missed = match whole {
             true => 0.0,
-            false => passed - self.passed,
+            false => passed - self.entered.passed,
         };
         let excess = sum(|e| e.excess);
-        self.numerical -= excess - self.exceeded;
-        self.exceeded = excess;
+        self.numerical -= excess - self.entered.exceeded;
+        self.entered.exceeded = excess;
         // Who drives has done it: in proportion, where several do.
-        let belt = moved - self.moved;
+        let belt = moved - self.entered.moved;
         let all = flow.work.abs() + belt.abs();
         let share = if all > 0.0 { belt.abs() / all } else { 0.0 };
         self.external_work += flow.work + (1.0 - share) * missed;
         self.belt_work += belt + share * missed;
         self.path += missed;
-        (self.passed, self.moved) = (passed, moved);
+        (self.entered.passed, self.entered.moved) = (passed, moved);
         self.close();
     }
 
     /// What the interfaces have entered: stored, dissipated and fed in.
     pub(crate) fn of_interfaces(&self) -> f64 {
-        self.contact + self.friction + self.contact_damping - self.moved
+        self.contact + self.friction + self.contact_damping - self.entered.moved
     }
 
     /// Enters work lost on the way of bodies that were followed.
@@ -176,13 +177,13 @@ impl EnergyLedger {
     fn in_play(&self) -> f64 {
         self.kinetic
             + self.strain
-            + self.held
+            + self.entered.held
             + self.contact
             + self.friction
             + self.contact_damping
             + self.rayleigh_damping
             + self.numerical.abs()
-            + self.transmitted
+            + self.entered.transmitted
     }
 }
 
@@ -216,15 +217,18 @@ crate::keep!(EnergyLedger {
     belt_work,
     path,
     uncertain,
+    entered,
+    initial,
+    residual
+});
+crate::keep!(Entered {
     thermal,
     held,
     passed,
     moved,
     exceeded,
     impacts,
-    transmitted,
-    initial,
-    residual
+    transmitted
 });
 crate::keep!(EnergyQuality {
     scale,

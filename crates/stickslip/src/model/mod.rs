@@ -23,8 +23,8 @@ pub use contact::Contact;
 pub use course::Course;
 pub use cycling::{Block, ChosenJump, Cycling, Jump};
 pub use definition::{
-    Body, ContactAt, ContactMass, Dynamic, Initial, Model, OutputPlan, Prescribed, Probe,
-    Reference, Rigid, Solution, Step, Support,
+    Actions, Body, ContactAt, ContactMass, Dynamic, Initial, Model, OutputPlan, Prescribed, Probe,
+    Reference, ReportPlan, Rigid, Solution, SolutionPlan, Step, Support,
 };
 pub use frame::{Frame, Motion};
 pub use heat::Heat;

@@ -139,7 +139,7 @@ impl<'a> Scene<'a> {
     /// What supports prescribe at a time, by dof; nothing that follows or is left out.
     pub(crate) fn supported(&self, t: f64) -> Vec<bool> {
         let mut held = vec![false; self.model.dofs.count()];
-        let acting = self.model.supports.iter();
+        let acting = self.model.actions.supports.iter();
         for support in acting.filter(|s| s.schedule.active(t)) {
             support.entries.iter().for_each(|e| held[e.dof] = true);
         }

@@ -68,7 +68,7 @@ fn linear(model: &Model) -> bool {
 impl Model {
     /// Adds so many times what temperatures press with at a time to `out` `[N]`, by dof.
     pub(crate) fn add_thermal_forces(&self, t: f64, times: f64, out: &mut [f64]) {
-        if let Some(heat) = &self.heat {
+        if let Some(heat) = &self.actions.heat {
             let (pressed, factor) = heat.at(self, t);
             let both = out.iter_mut().zip(&pressed.force);
             both.for_each(|(out, f)| *out += times * factor * f);
@@ -78,7 +78,7 @@ impl Model {
     /// By how much the strain energy at displacements and a time is more than that without thermal strain; and that of bodies that are held where they are
     /// meshed `[J]`.
     pub(crate) fn thermal_energy(&self, t: f64, u: &[f64]) -> [f64; 2] {
-        let Some(heat) = &self.heat else {
+        let Some(heat) = &self.actions.heat else {
             return [0.0; 2];
         };
         let (pressed, factor) = heat.at(self, t);
@@ -88,7 +88,7 @@ impl Model {
 
     /// Whether temperatures move bodies.
     pub fn is_heated(&self) -> bool {
-        self.heat.as_ref().is_some_and(|h| {
+        self.actions.heat.as_ref().is_some_and(|h| {
             let mut rises = h.temperatures.extremes().into_iter();
             rises.any(|e| e != [0.0; 2])
         })

@@ -240,7 +240,7 @@ impl Scene<'_> {
         let held = self.supported(t);
         let held = held.iter().enumerate().filter(|(_, held)| **held);
         held.for_each(|(dof, _)| resisted.dof(dof));
-        for &(dof, k) in model.springs.iter().flat_map(|s| s.entries()) {
+        for &(dof, k) in model.actions.springs.iter().flat_map(|s| s.entries()) {
             if k > 0.0 {
                 resisted.dof(dof);
             }

@@ -44,12 +44,13 @@ pub(crate) struct Watched {
 
 /// What is looked at; `None` where nobody asks.
 pub(crate) fn watched(model: &Model, contact: &Contact) -> Option<Watched> {
-    if model.output.fatigue.is_empty() {
+    if model.reports.output.fatigue.is_empty() {
         return None;
     }
     let interfaces = contact.interfaces.iter();
     let nodes: Vec<usize> = interfaces.flat_map(|i| i.nodes.iter().copied()).collect();
     let near = model
+        .reports
         .output
         .fatigue_depth
         .map(|depth| Near::new(model, &nodes, depth));
@@ -207,7 +208,13 @@ pub(crate) fn judge(view: &View, watched: &Watched, trial: Trial) -> Option<Vec<
         2 => Directions::Plane,
         _ => Directions::Space,
     };
-    let criteria = view.model.output.fatigue.iter().map(FatigueModel::as_dyn);
+    let criteria = view
+        .model
+        .reports
+        .output
+        .fatigue
+        .iter()
+        .map(FatigueModel::as_dyn);
     let rubbed = rubbed(view, watched, record);
     let found = criteria.map(|criterion| match criterion.on_surface(&Rubbed::default()) {
         Some(_) => on_surfaces(criterion, &rubbed),
@@ -319,7 +326,7 @@ pub(crate) fn add_columns(row: &mut Row, worst: &[Maximum], dim: usize) {
 /// Adds a field for each criterion, of the last cycle that is over, and one with the normals of the worst planes.
 pub(super) fn add_fields(view: &View, fields: &mut Fields) {
     let count = view.model.mesh.points.len();
-    for model in &view.model.output.fatigue {
+    for model in &view.model.reports.output.fatigue {
         let name = model.as_dyn().name();
         let mut values = vec![f64::NAN; count];
         let mut normals = vec![0.0; 3 * count];

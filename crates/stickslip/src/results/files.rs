@@ -474,7 +474,7 @@ impl Observer for ResultFiles {
                 }
             }
             Event::End => {
-                let growth = &analysis.summary.growth;
+                let growth = &analysis.summary.vibrations.growth;
                 let grown = modes::write_growth(&self.folder.directory, growth);
                 let ended = self.end(analysis.summary).and(grown);
                 self.folder.release();

@@ -204,7 +204,7 @@ impl Writer {
         wanted.dedup();
         wanted.retain(|quantity| match quantity {
             Quantity::Velocity => view.model.moves(),
-            Quantity::Temperature => view.model.heat.is_some(),
+            Quantity::Temperature => view.model.actions.heat.is_some(),
             Quantity::Contact => !view.contact.interfaces.is_empty(),
             _ => true,
         });
@@ -218,7 +218,7 @@ impl Writer {
         directory: &Path,
         owners: impl Fn() -> Vec<usize>,
     ) -> Result<Option<Arc<Mutex<Results>>>, Error> {
-        let Some(encoding) = view.model.output.frd else {
+        let Some(encoding) = view.model.reports.output.frd else {
             return Ok(None);
         };
         if let Some(file) = &self.file {

@@ -109,7 +109,7 @@ pub(crate) fn row(
         row.push(format!("{name}.F"), force);
         row.push(format!("{name}.U"), sum);
     }
-    for support in &view.model.supports {
+    for support in &view.model.actions.supports {
         push_reaction(&mut row, &support.name, view, support);
     }
     for reference in &view.model.references {
@@ -197,7 +197,7 @@ fn push_probes(row: &mut Row, view: &View, around: &[Option<Around>]) {
     let model = view.model;
     let dim = model.dofs.dim;
     let displacements = view.displacements();
-    for (probe, around) in model.probes.iter().zip(around) {
+    for (probe, around) in model.reports.probes.iter().zip(around) {
         let point = probe.point;
         let u = model.dofs.vector(&displacements, point);
         for (c, u) in u.iter().enumerate().take(dim) {

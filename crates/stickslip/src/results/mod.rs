@@ -25,4 +25,7 @@ pub use history::Row;
 pub use observer::{Advance, Event, Observer, Snapshot};
 pub use saved::{Lent, Saved, Source, checkpoints, digest_of};
 pub use sealed::{digest_of_state, seal, unseal};
-pub use summary::{Phases, Status, Summary};
+pub use summary::{
+    AttemptCounts, EnergySummary, ExplicitStart, FollowedBodies, Phases, RunCost, RunOutcome,
+    SolvedBy, Status, Summary, Vibrations,
+};

@@ -20,6 +20,53 @@ use crate::newton::{Fallback, Statistics};
 #[derive(Debug, Clone, Default, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub struct Summary {
+    /// What was run, and how it ended.
+    #[serde(flatten)]
+    pub run: RunOutcome,
+    /// What the doctor found, in the order in which it happened; 200 at most.
+    pub findings: Vec<Finding>,
+    /// How the systems of equations were solved.
+    #[serde(flatten)]
+    pub solved_by: SolvedBy,
+    /// What else a user should know.
+    pub notes: Vec<String>,
+    /// Size of the problem.
+    pub size: Size,
+    /// Increments, accepted and rejected.
+    #[serde(flatten)]
+    pub attempts: AttemptCounts,
+    /// The last explicit step at its start.
+    #[serde(flatten)]
+    pub explicit: ExplicitStart,
+    /// Largest rotation of a body so far `[rad]`, an elastic one by its mean displacement gradient at the rows of the history. Rotations are
+    /// linearised about the start: above about 0.1 it shows, as the body grows by the half of its square.
+    pub largest_rotation: f64,
+    /// Bodies that only contact can hold.
+    #[serde(flatten)]
+    pub loose: FollowedBodies,
+    /// What the run took.
+    #[serde(flatten)]
+    pub cost: RunCost,
+    /// The balance of energies.
+    #[serde(flatten)]
+    pub balance: EnergySummary,
+    /// How good the solution is, and whether that is enough.
+    pub quality: Gate,
+    /// Interfaces at the end.
+    pub interfaces: Vec<InterfaceSummary>,
+    /// Modes, and motions along them.
+    #[serde(flatten)]
+    pub vibrations: Vibrations,
+    /// Where criteria of fatigue were largest in the last cycle that was computed.
+    pub fatigue: Vec<Maximum>,
+    /// Last row of the history.
+    pub last: BTreeMap<String, f64>,
+}
+
+/// What was run, and how it ended.
+#[derive(Debug, Clone, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct RunOutcome {
     /// Title of the problem.
     pub title: String,
     /// Version of stickslip.
@@ -30,18 +77,24 @@ pub struct Summary {
     pub outcome: String,
     /// Whether the run reached its end.
     pub completed: bool,
-    /// What the doctor found, in the order in which it happened; 200 at most.
-    pub findings: Vec<Finding>,
+}
+
+/// How the systems of equations were solved, why so, and by whom.
+#[derive(Debug, Clone, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct SolvedBy {
     /// How the systems of equations were solved.
     pub method: String,
     /// Why so.
     pub method_reason: String,
     /// Who factored condensed bodies.
     pub engine: EngineSummary,
-    /// What else a user should know.
-    pub notes: Vec<String>,
-    /// Size of the problem.
-    pub size: Size,
+}
+
+/// Increments, accepted and rejected.
+#[derive(Debug, Clone, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct AttemptCounts {
     /// Accepted increments.
     pub increments: usize,
     /// Newton iterations of accepted increments.
@@ -59,17 +112,32 @@ pub struct Summary {
     /// Accepted increments that were solved as friction problems, by the solver that they took: of several the one that comes last in the portfolio. All
     /// others are those of plain iteration, or explicit.
     pub friction_solvers: BTreeMap<String, usize>,
+}
+
+/// An explicit step at its start.
+#[derive(Debug, Clone, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct ExplicitStart {
     /// Longest stable increment at the start of the last explicit step, with its safety `[time]`; 0 without one.
     pub stable_increment: f64,
     /// Mass added by mass scaling, relative to the mass there is.
     pub mass_added: f64,
-    /// Largest rotation of a body so far `[rad]`, an elastic one by its mean displacement gradient at the rows of the history. Rotations are
-    /// linearised about the start: above about 0.1 it shows, as the body grows by the half of its square.
-    pub largest_rotation: f64,
+}
+
+/// Bodies that only contact can hold, on their way to where it does.
+#[derive(Debug, Clone, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct FollowedBodies {
     /// Increments in which bodies that only contact can hold were moved or anchored.
     pub followed: usize,
     /// Energy left in the anchors that held such bodies in the last of them, over the strain energy.
     pub artificial_energy: f64,
+}
+
+/// What a run took: counts, times and memory.
+#[derive(Debug, Clone, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct RunCost {
     /// Counts and times of the solver.
     pub solver: Statistics,
     /// Seconds by phase.
@@ -85,22 +153,26 @@ pub struct Summary {
     pub page_faults: u64,
     /// Threads used.
     pub threads: usize,
+}
+
+/// The balance of energies at the end.
+#[derive(Debug, Clone, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct EnergySummary {
     /// Energies at the end.
     pub energy: EnergyLedger,
     /// How well the balance of energies closes.
     pub energy_quality: EnergyQuality,
-    /// How good the solution is, and whether that is enough.
-    pub quality: Gate,
-    /// Interfaces at the end.
-    pub interfaces: Vec<InterfaceSummary>,
+}
+
+/// Modes, and motions that began along them.
+#[derive(Debug, Clone, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Vibrations {
     /// Modes, by step that looked for them.
     pub modes: Vec<ModalOutcome>,
     /// How motions that began along modes grew, by step.
     pub growth: Vec<Growth>,
-    /// Where criteria of fatigue were largest in the last cycle that was computed.
-    pub fatigue: Vec<Maximum>,
-    /// Last row of the history.
-    pub last: BTreeMap<String, f64>,
 }
 
 /// Keys of what depends on the process, and beginnings of those of the solver that depend on what it shares with others as well.
@@ -235,15 +307,21 @@ impl Summary {
     /// An empty summary of this model.
     pub fn new(model: &Model, contact: &Contact) -> Self {
         Summary {
-            title: model.title.clone(),
-            version: env!("CARGO_PKG_VERSION"),
+            run: RunOutcome {
+                title: model.title.clone(),
+                version: env!("CARGO_PKG_VERSION"),
+                ..RunOutcome::default()
+            },
             size: Size {
                 points: model.mesh.points.len(),
                 cells: model.mesh.blocks.iter().map(|b| b.cell_ids.len()).sum(),
                 dofs: model.dofs.count(),
                 contact_points: contact.interfaces.iter().map(|i| i.points.len()).sum(),
             },
-            threads: rayon::current_num_threads(),
+            cost: RunCost {
+                threads: rayon::current_num_threads(),
+                ..RunCost::default()
+            },
             ..Summary::default()
         }
     }
@@ -268,43 +346,67 @@ impl Summary {
     }
 
     pub(crate) fn finish(&mut self, solver: &Statistics, total: f64, error: Option<&Error>) {
-        self.solver = *solver;
-        self.phases.order = solver.seconds_order;
-        self.phases.factor = solver.seconds_factor;
-        self.phases.condense = solver.seconds_condense;
-        self.phases.iterate = solver.seconds_solve;
-        self.phases.recover = solver.seconds_recover;
-        self.phases.contact = solver.seconds_contact;
-        self.phases.total = total;
-        self.linear_solve = solver.linear_solve + self.phases.assemble;
-        if self.linear_solve > 0.0 && solver.linear_solve > 0.0 {
-            self.relative_to_linear =
-                (total + self.phases.assemble - self.phases.write) / self.linear_solve;
+        self.cost.solver = *solver;
+        self.cost.phases.order = solver.seconds.order;
+        self.cost.phases.factor = solver.seconds.factor;
+        self.cost.phases.condense = solver.seconds.condense;
+        self.cost.phases.iterate = solver.seconds.solve;
+        self.cost.phases.recover = solver.seconds.recover;
+        self.cost.phases.contact = solver.seconds.contact;
+        self.cost.phases.total = total;
+        self.cost.linear_solve = solver.linear_solve + self.cost.phases.assemble;
+        if self.cost.linear_solve > 0.0 && solver.linear_solve > 0.0 {
+            self.cost.relative_to_linear = (total + self.cost.phases.assemble
+                - self.cost.phases.write)
+                / self.cost.linear_solve;
         }
-        self.completed = error.is_none();
-        self.status = match error {
+        self.run.completed = error.is_none();
+        self.run.status = match error {
             None => Status::Done,
             Some(Error::Interrupted(_)) => Status::Interrupted,
             Some(_) => Status::Failed,
         };
-        self.outcome = error.map_or("done".into(), Error::to_string);
-        self.peak_memory = peak_memory();
-        self.page_faults = page_faults();
+        self.run.outcome = error.map_or("done".into(), Error::to_string);
+        self.cost.peak_memory = peak_memory();
+        self.cost.page_faults = page_faults();
     }
 }
 
 // What a run says of its end is said again at the next one.
 crate::keep!(Summary {
+    run,
+    findings,
+    solved_by,
+    notes,
+    size,
+    attempts,
+    explicit,
+    largest_rotation,
+    loose,
+    cost,
+    balance,
+    quality,
+    vibrations,
+    fatigue,
+    last
+} and {
+    interfaces: Vec::new(),
+});
+crate::keep!(Status[Running, Done, Failed, Interrupted]);
+crate::keep!(RunOutcome {
     title,
     status,
     outcome,
-    completed,
-    findings,
+    completed
+} and {
+    version: env!("CARGO_PKG_VERSION"),
+});
+crate::keep!(SolvedBy {
     method,
     method_reason,
-    engine,
-    notes,
-    size,
+    engine
+});
+crate::keep!(AttemptCounts {
     increments,
     iterations,
     events,
@@ -312,31 +414,31 @@ crate::keep!(Summary {
     cycles_taken_back,
     cutback_reasons,
     fallbacks,
-    friction_solvers,
+    friction_solvers
+});
+crate::keep!(ExplicitStart {
     stable_increment,
-    mass_added,
-    largest_rotation,
+    mass_added
+});
+crate::keep!(FollowedBodies {
     followed,
-    artificial_energy,
+    artificial_energy
+});
+crate::keep!(RunCost {
     solver,
     phases,
     linear_solve,
     relative_to_linear,
     peak_memory,
-    page_faults,
-    energy,
-    energy_quality,
-    quality,
-    modes,
-    growth,
-    fatigue,
-    last
+    page_faults
 } and {
-    version: env!("CARGO_PKG_VERSION"),
     threads: rayon::current_num_threads(),
-    interfaces: Vec::new(),
 });
-crate::keep!(Status[Running, Done, Failed, Interrupted]);
+crate::keep!(EnergySummary {
+    energy,
+    energy_quality
+});
+crate::keep!(Vibrations { modes, growth });
 crate::keep!(FallbackSummary {
     step,
     from,

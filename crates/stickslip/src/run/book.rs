@@ -18,9 +18,13 @@ pub(crate) fn book(
 ) -> Effort {
     let effort = accepted.effort;
     if let Some(solver) = &accepted.solver {
-        *summary.friction_solvers.entry(solver.clone()).or_insert(0) += 1;
+        *summary
+            .attempts
+            .friction_solvers
+            .entry(solver.clone())
+            .or_insert(0) += 1;
     }
-    let first = summary.increments == 0;
+    let first = summary.attempts.increments == 0;
     frame.ledger = ledger_after(model, &*frame, contact, &frame.contacts, &accepted, first);
     frame.coupled = contact.coupled(frame).stored();
     frame.state = accepted.state;
@@ -34,13 +38,13 @@ pub(crate) fn book(
     if let Some(kick) = &mut frame.kick {
         kick.follow(&frame.state, frame.ledger.kinetic, effort.tally);
     }
-    summary.increments += 1;
-    summary.iterations += effort.iterations;
+    summary.attempts.increments += 1;
+    summary.attempts.iterations += effort.iterations;
     let turned = model.links.largest_rotation(&frame.state.u);
     // Elastic bodies are looked at where there is a row of the history.
     summary.largest_rotation = summary.largest_rotation.max(turned);
-    summary.energy_quality.note(&frame.ledger);
-    summary.energy = frame.ledger;
+    summary.balance.energy_quality.note(&frame.ledger);
+    summary.balance.energy = frame.ledger;
     effort
 }
 

@@ -8,7 +8,7 @@
 //! | laws that steps have changed | `Interface::laws` | changed again, step by step |
 //! | step, state, forces, starts of supports, direction, ledger; histories of interfaces, multipliers and targets of couplings | `Frame` | as it is |
 //! | holds of couplings | `CouplingsState` | as they are |
-//! | what the solver told interfaces; the end of their last attempt; places of their last search, slopes and nodes of their last evaluation | `Memory` | as they are; facets found again |
+//! | under which conditions interfaces are evaluated; the end of their last attempt; places of their last search, slopes and nodes of their last evaluation | `Memory` | as they are; facets found again |
 //! | increments that wait for their interiors, or to be reported; an attempt that failed and waits until they are | `Pending`, `Failed` | as they are |
 //! | how far the steps are: increments, attempts, the length that is wished, jumps over cycles | `Steps` | as it is |
 //! | damping forces and constraints of an explicit step | `ExplicitState` | as they are; masses, springs and frequencies made again |
@@ -158,7 +158,7 @@ impl Checkpoint {
 
     /// Accepted increments.
     pub fn increments(&self) -> usize {
-        self.summary.increments
+        self.summary.attempts.increments
     }
 
     /// The index of the step at hand, and whether it has ended.

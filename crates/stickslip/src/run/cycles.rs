@@ -72,7 +72,7 @@ impl Simulation {
         }
         let step = self.step();
         // Equal jumps to the next time of output.
-        let times = self.model.output.times.iter();
+        let times = self.model.reports.output.times.iter();
         let due = times.map(|t| ((t - step.start) / period - ON_TIME).ceil().max(0.0) as usize);
         let target = due.filter(|&n| n > before).min().unwrap_or(count);
         let left = target.min(count) - before;
@@ -108,7 +108,7 @@ impl Simulation {
         self.frame.block = block;
         self.frame.state.t = at;
         self.solver.condenser.pass_time(at);
-        self.forget_direction();
+        self.reset_predictor();
     }
 
     fn wears(&self) -> bool {
@@ -236,7 +236,7 @@ impl Simulation {
                 whole: Some(first),
                 first: None,
             });
-            self.summary.cycles_taken_back += 1;
+            self.summary.attempts.cycles_taken_back += 1;
             return self.go_on_with(running, trial, reach);
         }
         jumps.made = made;
@@ -278,9 +278,12 @@ impl Simulation {
         trial: Option<Halved>,
         wish: f64,
     ) -> Result<(), Error> {
-        let (taken_back, rejected) = (self.summary.cycles_taken_back, running.jumps.rejected);
+        let (taken_back, rejected) = (
+            self.summary.attempts.cycles_taken_back,
+            running.jumps.rejected,
+        );
         self.take_block_back(running, wish)?;
-        self.summary.cycles_taken_back = taken_back;
+        self.summary.attempts.cycles_taken_back = taken_back;
         running.jumps.rejected = rejected + usize::from(trial.is_none());
         running.jumps.trial = trial;
         Ok(())
@@ -320,10 +323,10 @@ impl Simulation {
         let Some(trying) = self.trying.take() else {
             return Ok(());
         };
-        let phases = self.summary.phases;
+        let phases = self.summary.cost.phases;
         self.go_back_to(trying.start)?;
-        self.summary.phases = phases;
-        self.summary.cycles_taken_back += 1;
+        self.summary.cost.phases = phases;
+        self.summary.attempts.cycles_taken_back += 1;
         if let Some(mut back) = self.steps.running.take() {
             back.jumps.wish = wish.max(1.0);
             back.jumps.rejected += 1;
@@ -366,7 +369,7 @@ impl Simulation {
             self.tell(observers, || Event::Cycle(row))?;
         }
         match trying.fields {
-            true => self.put_out(observers),
+            true => self.write_fields(observers),
             false => Ok(()),
         }?;
         self.tell_notes(observers)

@@ -23,14 +23,19 @@ impl Simulation {
                 "failed"
             };
             // Once of each kind is enough for people; the list has them all.
-            if summary.fallbacks.iter().all(|f| f.tried.kind != tried.kind) {
+            if summary
+                .attempts
+                .fallbacks
+                .iter()
+                .all(|f| f.tried.kind != tried.kind)
+            {
                 self.solver.log.notes.push(format!(
                     "{} after {:.6e}: plain iteration failed; {} {outcome} in {} iterations with {} (`fallbacks` of the summary lists all of them)",
                     step.name, trial.from, tried.kind.name(), tried.iterations, tried.solver
                 ));
             }
-            if summary.fallbacks.len() < MOST_REASONS {
-                summary.fallbacks.push(FallbackSummary {
+            if summary.attempts.fallbacks.len() < MOST_REASONS {
+                summary.attempts.fallbacks.push(FallbackSummary {
                     step: step.name.clone(),
                     from: trial.from,
                     to: trial.to,
@@ -75,15 +80,15 @@ impl Simulation {
     /// Takes note of an attempt that failed.
     pub(crate) fn reject(&mut self, trial: &Trial, failure: &StepFailure) {
         // What the last increment did is no guide any more.
-        self.forget_direction();
+        self.reset_predictor();
         let summary = &mut self.summary;
         if failure.cause == Cause::Event {
-            summary.events += 1;
+            summary.attempts.events += 1;
             return;
         }
-        summary.cutbacks += 1;
-        if summary.cutback_reasons.len() < MOST_REASONS {
-            summary.cutback_reasons.push(format!(
+        summary.attempts.cutbacks += 1;
+        if summary.attempts.cutback_reasons.len() < MOST_REASONS {
+            summary.attempts.cutback_reasons.push(format!(
                 "{} ({:.6e} to {:.6e}): {}",
                 self.model.steps[self.frame.step].name, trial.from, trial.to, failure.message
             ));

@@ -9,7 +9,7 @@ use crate::system::{Cause, StepFailure};
 
 impl Simulation {
     /// Takes note of an increment whose interior does not hold: interfaces know what they knew before. The error ends the turn.
-    pub(super) fn takes_back(&mut self, one: &Pending, failure: StepFailure) -> Error {
+    pub(super) fn roll_back(&mut self, one: &Pending, failure: StepFailure) -> Error {
         self.pending.clear();
         self.taken_back = Some(TakenBack {
             trial: one.trial,
@@ -57,7 +57,7 @@ impl Simulation {
         failure: &StepFailure,
         observers: &mut [&mut dyn Observer],
     ) -> Result<(), Error> {
-        self.forget_direction();
+        self.reset_predictor();
         let Simulation {
             model,
             contact,

@@ -5,10 +5,8 @@ use std::f64::consts::TAU;
 use super::simulation::{Simulation, view};
 use crate::assess::figures::MODE_RESIDUAL;
 use crate::assess::prestress::Shape;
-use crate::contact::interface::Steady;
 use crate::error::{Error, RunError};
 use crate::modal::{self, ModalOutcome, Mode};
-use crate::model::definition::Model;
 use crate::model::kick::{Course, Kick, Share};
 use crate::model::limits::GateMode;
 use crate::model::modal::Modal;
@@ -16,19 +14,6 @@ use crate::results::observer::{Event, Observer};
 use crate::solve::work::Work;
 
 impl Simulation {
-    /// Tells the interfaces whether sliding lasts in the step at hand; modes are about the sliding of the step before.
-    pub(super) fn begin_sliding(&mut self, step: usize) {
-        let plan = lasting(&self.model, step);
-        for interface in &mut self.contact.interfaces {
-            interface.conditions.steady = match (plan, &self.model.steps[step].modal) {
-                (Some(plan), _) => Some(plan.of(&interface.name)),
-                // A belt runs all the time, whoever set it going.
-                (None, Some(_)) => Some(Steady::default()),
-                (None, None) => None,
-            };
-        }
-    }
-
     fn modes_about(&mut self, plan: &Modal) -> Result<ModalOutcome, RunError> {
         self.solver.seen.tell(&Work::Modes);
         let (model, frame) = (&self.model, &self.frame);
@@ -49,10 +34,7 @@ impl Simulation {
         let before = &self.model.steps[previous];
         let outcome = match (self.modes.last(), before.modal.clone()) {
             (Some(known), _) if known.step == before.name => known.clone(),
-            (_, Some(modal)) => {
-                self.begin_sliding(previous);
-                self.modes_about(&modal)?
-            }
+            (_, Some(modal)) => self.modes_about(&modal)?,
             (_, None) => return Ok(None),
         };
         let Some(mode) = chosen(&outcome, plan.mode) else {
@@ -104,7 +86,7 @@ impl Simulation {
             growth.cycles,
             growth.amplitudes[1],
         ));
-        self.summary.growth.push(growth);
+        self.summary.vibrations.growth.push(growth);
         self.tell_notes(observers)
     }
 
@@ -123,7 +105,7 @@ impl Simulation {
             }
         };
         let modes: Vec<Shape> = outcome.modes.iter().map(shape).collect();
-        let (limits, gate) = (&self.model.quality, &mut self.summary.quality);
+        let (limits, gate) = (&self.model.reports.quality, &mut self.summary.quality);
         let mut notes = Vec::new();
         view!(self).judge_prestress(&modes, limits, gate, &mut notes);
         let t = self.frame.state.t;
@@ -167,7 +149,7 @@ impl Simulation {
                 self.summary.last.extend(figures.zip(values));
             }
         }
-        self.summary.modes.push(outcome.figures());
+        self.summary.vibrations.modes.push(outcome.figures());
         self.modes.push(outcome);
         self.tell_notes(observers)
     }
@@ -179,11 +161,4 @@ fn chosen(outcome: &ModalOutcome, number: Option<usize>) -> Option<&Mode> {
         Some(number) => outcome.modes.get(number - 1),
         None => (outcome.modes.iter()).max_by(|a, b| a.growth.total_cmp(&b.growth)),
     }
-}
-
-/// The sliding that lasts in a step; in one that looks for modes that of the last in which something moved.
-fn lasting(model: &Model, step: usize) -> Option<&crate::model::SteadyPlan> {
-    let mut before = model.steps[..=step].iter().rev();
-    let moving = before.find(|s| s.modal.is_none());
-    moving.and_then(|s| s.steady.as_ref())
 }

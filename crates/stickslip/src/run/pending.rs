@@ -42,13 +42,14 @@ impl Simulation {
             // In motion that has been done when it was weighed.
             if model.steps[frame.step].dynamic.is_none() {
                 let stage = accepted.stage(&frame.state, *trial);
-                frame.contacts = Arc::new(contact.commit(&frame.contacts, &stage));
+                frame.contacts =
+                    Arc::new(contact.commit(&frame.contacts, &solver.conditions, &stage));
                 (frame.course).go_on(trial.to - trial.from, frame.state.u.clone());
             }
             return self.report(pending, observers);
         };
         let stage = accepted.stage(&condensed.state, *trial);
-        let after = contact.commit(solver.contacts(frame), &stage);
+        let after = contact.commit(solver.contacts(frame), &solver.conditions, &stage);
         let after = Arc::new(after);
         pending.found = solver.move_ahead(&mut pending.accepted, pending.trial);
         pending.seen = solver.seen.take();
@@ -96,7 +97,7 @@ impl Simulation {
                     self.pending.clear();
                     return Err(failure.at(self.frame.state.t).into());
                 }
-                return Err(self.takes_back(&one, failure));
+                return Err(self.roll_back(&one, failure));
             }
             if let Some(after) = one.after.take() {
                 self.frame.contacts = after;
@@ -172,9 +173,9 @@ impl Simulation {
             }
         }
         if pending.fields && self.trying.is_none() {
-            self.put_out(observers)?;
+            self.write_fields(observers)?;
         }
-        self.summary.phases.write += started.elapsed().as_secs_f64();
+        self.summary.cost.phases.write += started.elapsed().as_secs_f64();
         Ok(())
     }
 
@@ -196,11 +197,15 @@ impl Simulation {
     }
 
     /// Tells observers that fields are due.
-    pub(super) fn put_out(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+    pub(super) fn write_fields(
+        &mut self,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<(), Error> {
         let views = self.contact.views(&self.frame);
         let State { u, t, .. } = &self.frame.state;
-        let interfaces = self.contact.interfaces.iter().zip(views);
-        let gaps = interfaces.map(|(i, view)| look::excluded_gaps(view, &i.conditions, u, *t));
+        let interfaces = self.solver.conditions.iter().zip(views);
+        let gaps =
+            interfaces.map(|(conditions, view)| look::excluded_gaps(view, conditions, u, *t));
         let gaps: Vec<_> = gaps.collect();
         let histories = &mut Arc::make_mut(&mut self.frame.contacts).interfaces;
         for (history, gaps) in histories.iter_mut().zip(gaps) {
@@ -211,7 +216,7 @@ impl Simulation {
 
     /// Judges the last accepted increment.
     fn judge(&mut self) {
-        let limits = &self.model.quality;
+        let limits = &self.model.reports.quality;
         let view = view!(self);
         let summary = &mut self.summary;
         view.watch(&mut self.judges.watches);
@@ -239,16 +244,16 @@ impl Simulation {
     /// Tells observers what has been noted.
     pub(crate) fn tell_notes(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
         let log = &mut self.solver.log;
-        self.summary.method = log.method.into();
-        self.summary.method_reason.clone_from(&log.reason);
+        self.summary.solved_by.method = log.method.into();
+        self.summary.solved_by.method_reason.clone_from(&log.reason);
         if let Some(engine) = &log.engine {
-            self.summary.engine = engine.report().into();
+            self.summary.solved_by.engine = engine.report().into();
         }
         let notes: Vec<String> = log.notes.drain(..).collect();
         for note in notes {
             self.tell(observers, || Event::Note(&note))?;
             // Which method was chosen and why has a place of its own in the summary.
-            let reason = &self.summary.method_reason;
+            let reason = &self.summary.solved_by.method_reason;
             if reason.is_empty() || !note.ends_with(reason.as_str()) {
                 self.summary.notes.push(note);
             }
@@ -257,8 +262,8 @@ impl Simulation {
     }
 
     /// What the last increment did is no guide for the next.
-    pub(crate) fn forget_direction(&mut self) {
+    pub(crate) fn reset_predictor(&mut self) {
         self.frame.course.forget();
-        self.solver.condenser.forget_direction();
+        self.solver.condenser.reset_predictor();
     }
 }

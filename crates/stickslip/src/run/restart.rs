@@ -48,9 +48,11 @@ impl Simulation {
 
     /// The state that attempts change.
     pub(super) fn working(&self) -> Working {
-        let interfaces = self.contact.interfaces.iter();
+        let interfaces = self.contact.interfaces.iter().zip(&self.solver.conditions);
         Working {
-            interfaces: interfaces.map(memory).collect(),
+            interfaces: interfaces
+                .map(|(i, conditions)| memory(i, conditions))
+                .collect(),
             couplings: self.contact.couplings.state(),
             explicit: self.integration.explicit().map(Explicit::state),
             solver: self.solver.state(),
@@ -78,7 +80,7 @@ impl Simulation {
         }
         simulation.go_back_to(checkpoint)?;
         simulation.started = Instant::now();
-        simulation.saved = (simulation.summary.increments, simulation.started);
+        simulation.saved = (simulation.summary.attempts.increments, simulation.started);
         Ok(simulation)
     }
 
@@ -112,9 +114,10 @@ impl Simulation {
         let ahead = pending.last().or(ahead).and_then(|p| p.after.clone());
         let contacts = ahead.as_ref().unwrap_or(&frame.contacts);
         let histories = contacts.interfaces.iter().zip(working.interfaces);
-        for (interface, (history, memory)) in contact.interfaces.iter_mut().zip(histories) {
-            remember(interface, history, memory, &u);
-        }
+        let all = contact.interfaces.iter_mut().zip(histories);
+        solver.conditions = all
+            .map(|(interface, (history, memory))| remember(interface, history, memory, &u))
+            .collect();
         contact.couplings.go_on_from(working.couplings);
         let t = frame.state.t;
         (solver.go_on_from(working.solver, model, &frame, contact)).map_err(|e| e.at(t))?;

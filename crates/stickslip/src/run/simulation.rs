@@ -110,17 +110,17 @@ impl Simulation {
             mut contact,
             notes,
         } = setup;
-        let mut solver = Solver::new(&model, library);
+        let mut solver = Solver::new(&model, contact.interfaces.len(), library);
         solver.log.notes = notes;
         let frame = start(&model, &mut contact, &solver);
         let probed = |point| model.elastic().find_map(|b| b.elastic.around(point));
         let mut summary = Summary::new(&model, &contact);
-        summary.energy = frame.ledger;
-        summary.energy_quality.limit = model.energy_limit;
-        summary.energy_quality.met = true;
-        summary.quality.gate = model.quality.gate;
+        summary.balance.energy = frame.ledger;
+        summary.balance.energy_quality.limit = model.solution.energy_limit;
+        summary.balance.energy_quality.met = true;
+        summary.quality.gate = model.reports.quality.gate;
         summary.quality.met = true;
-        summary.phases.assemble = started.elapsed().as_secs_f64();
+        summary.cost.phases.assemble = started.elapsed().as_secs_f64();
         let scene = Scene {
             model: &model,
             contact: &contact,
@@ -128,7 +128,12 @@ impl Simulation {
         };
         Ok(Simulation {
             judges: Judges {
-                around: model.probes.iter().map(|p| probed(p.point)).collect(),
+                around: model
+                    .reports
+                    .probes
+                    .iter()
+                    .map(|p| probed(p.point))
+                    .collect(),
                 unjoined: doctor::Unjoined::new(&scene),
                 loops: vec![Loop::default(); contact.interfaces.len()],
                 shares: loops::shares(&model),
@@ -196,7 +201,12 @@ impl Simulation {
 
     /// Gaps at the start by interface, and what the doctor finds in the model.
     pub(crate) fn look(&mut self) -> (Vec<Vec<f64>>, Vec<Finding>) {
-        let gaps = start_gaps(&self.model, &self.frame, &mut self.contact);
+        let gaps = start_gaps(
+            &self.model,
+            &self.frame,
+            &mut self.contact,
+            &self.solver.conditions,
+        );
         let findings = doctor::examine(&view!(self), &self.judges.unjoined, &gaps);
         (gaps, findings)
     }
@@ -226,12 +236,12 @@ impl Simulation {
         let summary = &mut self.summary;
         let statistics = &self.solver.newton.statistics;
         summary.finish(statistics, total, outcome.as_ref().err());
-        summary.energy = self.frame.ledger;
+        summary.balance.energy = self.frame.ledger;
         let strain = self.frame.ledger.strain;
-        summary.artificial_energy = self.solver.floating.artificial_energy(strain);
+        summary.loose.artificial_energy = self.solver.floating.artificial_energy(strain);
         summary.interfaces = quality::interfaces(&view, &summary.quality, &self.judges.watches);
         let mut notes = Vec::new();
-        if summary.completed {
+        if summary.run.completed {
             for finding in doctor::watched(&view, &self.judges.watches) {
                 // Shear that is not there looks like any other.
                 if finding.cause == DoctorCause::TurnedNormals {
@@ -240,8 +250,8 @@ impl Simulation {
                 doctor::note(&mut summary.findings, finding);
             }
         }
-        if summary.increments > 0 {
-            let (limits, energy) = (&self.model.quality, &summary.energy_quality);
+        if summary.attempts.increments > 0 {
+            let (limits, energy) = (&self.model.reports.quality, &summary.balance.energy_quality);
             view.judge_energy(limits, energy, &mut summary.quality, &mut notes);
         }
         self.solver.log.notes.extend(notes);
@@ -263,7 +273,7 @@ impl Simulation {
 
     /// Times of the phases so far.
     pub fn phases(&mut self) -> &mut Phases {
-        &mut self.summary.phases
+        &mut self.summary.cost.phases
     }
 }
 
@@ -271,7 +281,7 @@ impl Simulation {
 fn start(model: &Model, contact: &mut Contact, solver: &Solver) -> Frame {
     let n = model.dofs.count();
     let mut u = vec![0.0; n];
-    for &(dof, value) in model.initials.iter().flat_map(|i| &i.displacements) {
+    for &(dof, value) in model.actions.initials.iter().flat_map(|i| &i.displacements) {
         u[dof] = value;
     }
     model.links.impose(&mut u);

@@ -65,7 +65,7 @@ impl Sizes {
 impl Simulation {
     /// How much the run will write, if it is asked before it begins.
     pub fn sizes(&self) -> Sizes {
-        let plan = &self.model.output;
+        let plan = &self.model.reports.output;
         let mut sizes = Sizes::default();
         for step in &self.model.steps {
             let count = self.increments_of(step);
@@ -159,10 +159,12 @@ impl Simulation {
         if of_kind(Step::is_explicit) {
             vectors += 3;
         }
-        let condensed = matches!(model.method, Solution::Automatic | Solution::Condensed)
-            && of_kind(|step| step.dynamic.is_none());
+        let condensed = matches!(
+            model.solution.method,
+            Solution::Automatic | Solution::Condensed
+        ) && of_kind(|step| step.dynamic.is_none());
         if condensed {
-            vectors += 4 + model.loads.len() + model.supports.len();
+            vectors += 4 + model.actions.loads.len() + model.actions.supports.len();
         }
         // What factors were made of: one of bodies at rest, up to four in motion.
         let mut factors = 0;

@@ -7,7 +7,7 @@ use std::time::Instant;
 use super::queue::{Due, Failed, Pending};
 use super::simulation::{Simulation, view};
 use crate::assess::doctor;
-use crate::contact::interface::set_masses;
+use crate::contact::interface::mass_per_area;
 use crate::error::Error;
 use crate::integrate::explicit::Explicit;
 use crate::integrate::implicit::Implicit;
@@ -141,9 +141,9 @@ impl Simulation {
 
     /// Hands on a checkpoint where one is due and can be taken.
     fn save_if_due(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
-        let (every, seconds) = self.model.output.checkpoint;
+        let (every, seconds) = self.model.reports.output.checkpoint;
         let (increments, at) = self.saved;
-        let passed = self.summary.increments - increments;
+        let passed = self.summary.attempts.increments - increments;
         let failed = (self.steps.running.as_ref()).is_some_and(|running| running.failed.is_some());
         let between = self.pending.is_empty() && self.recovered.is_none() && self.trying.is_none();
         if !between || failed {
@@ -190,7 +190,6 @@ impl Simulation {
     /// Begins a step.
     fn begin_step(&mut self, step: usize) -> Result<(), Error> {
         let kick = self.find_kick(step)?;
-        self.begin_sliding(step);
         self.frame.kick = kick;
         let Simulation {
             model,
@@ -201,10 +200,19 @@ impl Simulation {
             ..
         } = self;
         frame.step = step;
+        for (interface, conditions) in contact.interfaces.iter().zip(&mut solver.conditions) {
+            conditions.steady = model.sliding(step, &interface.name);
+            conditions.impulses = false;
+        }
         frame.block = Block::default();
         frame.begin_step(model, contact);
         let contacts = Arc::make_mut(&mut frame.contacts);
-        contact.begin_acting(contacts, &model.steps[step], &frame.state);
+        contact.begin_acting(
+            contacts,
+            &solver.conditions,
+            &model.steps[step],
+            &frame.state,
+        );
         if model.steps[step].modal.is_some() {
             return Ok(());
         }
@@ -226,9 +234,10 @@ impl Simulation {
             }
             Method::Explicit { .. } => {
                 solver.include_all(model, contact);
-                let explicit = Explicit::begin(model, frame, contact, &dynamic)?;
-                summary.mass_added = explicit.begun.mass_added;
-                summary.stable_increment = explicit.begun.stable;
+                let explicit =
+                    Explicit::begin(model, frame, contact, &solver.conditions, &dynamic)?;
+                summary.explicit.mass_added = explicit.begun.mass_added;
+                summary.explicit.stable_increment = explicit.begun.stable;
                 Integration::Explicit(Box::new(explicit))
             }
         };
@@ -250,15 +259,15 @@ impl Simulation {
         frame.state.v.clear();
         frame.state.a.clear();
         frame.motion = Motion::default();
-        solver.come_to_rest();
-        for interface in &mut contact.interfaces {
-            set_masses(interface, &[]);
+        solver.end_dynamics();
+        for (interface, conditions) in contact.interfaces.iter().zip(&mut solver.conditions) {
+            conditions.inertia = mass_per_area(interface, &[]);
         }
         let contacts = Arc::make_mut(&mut frame.contacts);
         contact.use_springs(contacts, false, |energy| frame.ledger.initial += energy);
         self.integration = Integration::QuasiStatic(QuasiStatic);
         solver.find_floating_bodies(model, frame, contact);
-        if let Some((finding, error)) = view!(self).refuse_unheld() {
+        if let Some((finding, error)) = view!(self).refuse_rigid_modes() {
             doctor::note(&mut self.summary.findings, finding);
             return Err(error.into());
         }
@@ -267,8 +276,8 @@ impl Simulation {
             return Err(error);
         }
         let (model, frame) = (&self.model, &self.frame);
-        (self.solver).choose_candidates(model, frame, &mut self.contact);
-        (self.solver).condense(model, frame, &mut self.contact);
+        (self.solver).choose_candidates(model, frame, &self.contact);
+        (self.solver).condense(model, frame, &self.contact);
         Ok(())
     }
 
@@ -344,7 +353,7 @@ impl Simulation {
             }
             Err(failure) if failure.cause == Cause::Reach => {
                 self.flush(observers)?;
-                (self.solver).widen(&self.model, &self.frame, &mut self.contact);
+                (self.solver).widen(&self.model, &self.frame, &self.contact);
                 self.tell_notes(observers)?;
             }
             Err(failure) if failure.cause == Cause::Interior => {
@@ -365,14 +374,14 @@ impl Simulation {
         Ok(Some(running))
     }
 
-    /// Tells interfaces for how many cycles beside its own an increment stands.
+    /// Takes note for how many cycles beside its own an increment stands.
     fn count_cycles(&mut self, trial: Trial) {
         let step = self.step();
         let since = trial.from - step.start;
         let block = step.cycles.map(|c| c.block(since, self.frame.block));
         let skipped = block.map_or(0.0, |b| b.stands_for as f64 - 1.0);
-        for interface in &mut self.contact.interfaces {
-            interface.conditions.skipped = skipped;
+        for conditions in &mut self.solver.conditions {
+            conditions.skipped = skipped;
         }
     }
 
@@ -413,7 +422,7 @@ impl Simulation {
         };
         let outcome = self.solver.floating.judge(scene, outcome, trial);
         if self.solver.floating.went_astray() {
-            self.forget_direction();
+            self.reset_predictor();
         }
         Ok(outcome)
     }
@@ -452,7 +461,7 @@ impl Simulation {
         accepted: &Accepted,
         observers: &mut [&mut dyn Observer],
     ) -> Result<bool, Error> {
-        let followed = &mut self.summary.followed;
+        let followed = &mut self.summary.loose.followed;
         let anchored = self.solver.floating.is_anchored();
         let contacts = Arc::clone(self.solver.contacts(&self.frame));
         let floating = &mut self.solver.floating;
@@ -483,7 +492,7 @@ impl Simulation {
     ) -> Result<bool, Error> {
         let stiffer = self.solver.floating.wants_stiffer_anchors(failure);
         if stiffer {
-            self.forget_direction();
+            self.reset_predictor();
         } else if !self.solver.floating.may_follow(self.step(), failure) {
             return Ok(false);
         }
@@ -519,7 +528,7 @@ impl Simulation {
             accepted.effort.iterations
         };
         running.stepper.accept(trial, iterations);
-        let plan = &self.model.output;
+        let plan = &self.model.reports.output;
         let last = running.stepper.next().is_none();
         let due = last || plan.times.contains(&trial.to) || increment.is_multiple_of(plan.every);
         let row = due || increment.is_multiple_of(plan.history_every);
@@ -536,7 +545,7 @@ impl Simulation {
         }
         self.go_on(pending, last, observers)?;
         if self.step().corners.contains(&trial.to) {
-            self.forget_direction();
+            self.reset_predictor();
         }
         running.attempt = 1;
         self.end_block(running, trial.to, observers)

@@ -46,7 +46,7 @@ impl Simulation {
             return Ok(accepted);
         }
         let stage = accepted.stage(&self.frame.state, trial);
-        let after = (self.contact).commit(&self.frame.contacts, &stage);
+        let after = (self.contact).commit(&self.frame.contacts, &self.solver.conditions, &stage);
         if self.is_weighed() {
             let [opened, may] = self.opened(trial, &accepted, &after);
             let length = trial.to - trial.from;
@@ -75,7 +75,7 @@ impl Simulation {
 
     /// Whether the length of increments is the program's to choose, and the balance of energies is judged.
     fn is_weighed(&self) -> bool {
-        self.model.quality.gate != GateMode::Off && !self.step().fixed
+        self.model.reports.quality.gate != GateMode::Off && !self.step().fixed
     }
 
     /// Whether an increment resolves how masses swing on the springs of contact, as they are pressed now.
@@ -111,11 +111,15 @@ impl Simulation {
     /// By how much the balance of energies opens over a committed increment, and by how much it may `[J]`.
     fn opened(&self, trial: Trial, accepted: &Accepted, after: &ContactMemory) -> [f64; 2] {
         let (model, frame) = (&self.model, &self.frame);
-        let first = self.summary.increments == 0;
+        let first = self.summary.attempts.increments == 0;
         let ledger = ledger_after(model, frame, &self.contact, after, accepted, first);
-        let mut quality = self.summary.energy_quality;
+        let mut quality = self.summary.balance.energy_quality;
         quality.note(&ledger);
-        let limit = model.quality.energy.unwrap_or(model.energy_limit);
+        let limit = model
+            .reports
+            .quality
+            .energy
+            .unwrap_or(model.solution.energy_limit);
         let [before, after] = [frame.ledger.open(), ledger.open()];
         let part = (trial.to - trial.from) / self.time_in_motion(trial.from);
         let [opened, may] = [

@@ -28,7 +28,7 @@ pub(super) struct ByCells {
 impl ByCells {
     /// That of a model, without its bodies where all steps are explicit: they need no matrix.
     pub fn new(model: &Model, identity: Identity) -> ByCells {
-        let springs = model.springs.iter().flat_map(|s| s.entries());
+        let springs = model.actions.springs.iter().flat_map(|s| s.entries());
         ByCells {
             dofs: model.dofs,
             bodies: stiff(model)
@@ -204,7 +204,7 @@ pub(super) fn linear_part(model: &Model, whole: &BlockCsr) -> BlockCsr {
     let mut rest = whole.zeros_like();
     let bodies = model.elastic().filter(|b| !b.elastic.is_corotational());
     bodies.for_each(|body| body.elastic.stiffness(&mut rest));
-    for &(dof, k) in model.springs.iter().flat_map(|s| s.entries()) {
+    for &(dof, k) in model.actions.springs.iter().flat_map(|s| s.entries()) {
         model.links.add_spring(&mut rest, dof, k);
     }
     rest
@@ -221,5 +221,5 @@ pub(super) fn suffices(model: &Model) -> bool {
     let at_rest = |step: &Step| step.dynamic.is_none() && step.modal.is_none();
     // What turns freely or cell by cell is not condensed at rest.
     let turns = model.turns_freely() || model.is_corotational();
-    model.engine.as_dyn().condenses() && !turns && model.steps.iter().all(at_rest)
+    model.solution.engine.as_dyn().condenses() && !turns && model.steps.iter().all(at_rest)
 }

@@ -28,7 +28,13 @@ impl Cells<'_> {
     fn press(&self, t: f64, u: &[f64], out: &mut [f64]) {
         out.fill(0.0);
         let (mesh, space) = (&*self.model.mesh, self.model.space);
-        for pressing in self.model.loads.iter().filter(|l| l.pressing.is_some()) {
+        for pressing in self
+            .model
+            .actions
+            .loads
+            .iter()
+            .filter(|l| l.pressing.is_some())
+        {
             pressing.external_at(t, mesh, space, u, out);
         }
     }
@@ -73,7 +79,7 @@ impl Curved for Pressed<'_> {
         let bodies = self.bodies.turning();
         bodies.for_each(|e| e.tangents(u, &mut exact, &mut stiff));
         let (mesh, space) = (&*model.mesh, model.space);
-        for load in &model.loads {
+        for load in &model.actions.loads {
             if let Some(pressing) = &load.pressing {
                 let factor = -load.schedule.at(self.t);
                 pressing.add_tangent(mesh, space, factor, u, &mut exact);

@@ -1,7 +1,7 @@
 //! Solutions that are refused although Newton's method has found them.
 
 use crate::contact::interface::ContactView;
-use crate::contact::interface::spreads;
+use crate::contact::interface::{Conditions, spreads};
 use crate::contact::look;
 use crate::math::larger;
 use crate::model::contact::Contact;
@@ -75,7 +75,7 @@ pub(crate) fn check_change(
 ) -> Result<(), StepFailure> {
     let change = pairs.fold(0.0, |m, (a, b)| larger(m, (a - b).abs()));
     // A change that is not a number is none that is allowed.
-    if change.is_nan() || change > model.largest_change * model.size {
+    if change.is_nan() || change > model.solution.largest_change * model.size {
         return Err(StepFailure::new(
             Cause::TooFar,
             format!(
@@ -97,8 +97,7 @@ pub(crate) fn check_way<'a>(
         return Ok(());
     }
     for interface in contacts {
-        if let Some(deep) = look::passes_through(interface, ends.map(|s| &*s.u), ends.map(|s| s.t))
-        {
+        if let Some(deep) = look::tunnels(interface, ends.map(|s| &*s.u), ends.map(|s| s.t)) {
             let message = format!(
                 "interface `{}`: bodies overlap by {deep:.3e} on the way to what was found: an axle that nothing but contact holds has turned through what it touches",
                 interface.name
@@ -111,8 +110,12 @@ pub(crate) fn check_way<'a>(
 }
 
 /// Refuses a solution with contact near points that do not take part.
-pub(crate) fn check_candidates(contact: &Contact) -> Result<(), StepFailure> {
-    if contact.interfaces.iter().any(spreads) {
+pub(crate) fn check_candidates(
+    contact: &Contact,
+    conditions: &[Conditions],
+) -> Result<(), StepFailure> {
+    let mut interfaces = contact.interfaces.iter().zip(conditions);
+    if interfaces.any(|(i, conditions)| spreads(i, conditions)) {
         return Err(StepFailure::new(
             Cause::Reach,
             "contact comes near to points that were not expected to be touched",

@@ -1,6 +1,6 @@
 //! Moves loose bodies, as rigid ones, the way their loads push them until they touch.
 
-use crate::contact::interface::meeting;
+use crate::contact::interface::{Conditions, meeting};
 use crate::math::{Vec3, add, add_scaled, dot, norm, scale, symmetric_eigen};
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
@@ -57,6 +57,7 @@ pub(crate) fn close(
     model: &Model,
     frame: &Frame,
     contact: &mut Contact,
+    conditions: &[Conditions],
     free: &[FreeBody],
     external: &[f64],
     trial: Trial,
@@ -86,10 +87,9 @@ pub(crate) fn close(
             break;
         }
         let (mut way, mut touching) = (f64::INFINITY, Vec::new());
-        let histories = &frame.contacts.interfaces;
-        for (interface, history) in contact.interfaces.iter_mut().zip(histories) {
+        for interface in &mut contact.forces(&frame.contacts, conditions).interfaces {
             if interface.schedule.active(trial.to) {
-                let meeting = meeting(&mut interface.force(history), &u, &w, trial.from);
+                let meeting = meeting(interface, &u, &w, trial.from);
                 way = way.min(meeting.way);
                 touching.extend(meeting.touching);
             }

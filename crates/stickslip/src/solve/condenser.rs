@@ -130,7 +130,7 @@ impl Condenser {
     }
 
     /// What the last increment did is no guide for the next.
-    pub fn forget_direction(&mut self) {
+    pub fn reset_predictor(&mut self) {
         if let Some(condensed) = &mut self.at_rest {
             condensed.course.forget();
         }

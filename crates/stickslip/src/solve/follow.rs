@@ -38,7 +38,7 @@ impl Solver {
             frame,
         };
         let mut bodies = Vec::new();
-        if model.follow && !contact.interfaces.is_empty() {
+        if model.solution.follow && !contact.interfaces.is_empty() {
             bodies = scene.free_bodies(middle);
         }
         let active = |i: &&Interface| i.schedule.active(middle);
@@ -138,7 +138,15 @@ impl Solver {
         self.seen.tell(&Work::Following);
         let external = frame.loads(model, trial.to);
         let bodies = self.floating.bodies();
-        let closure = close(model, frame, contact, bodies, &external, trial);
+        let closure = close(
+            model,
+            frame,
+            contact,
+            &self.conditions,
+            bodies,
+            &external,
+            trial,
+        );
         let mut names = Vec::new();
         for (free, &moved) in bodies.iter().zip(&closure.moved) {
             if moved > 0.0 {
@@ -175,7 +183,7 @@ impl Solver {
         frame.state.u = u;
         model.links.impose(&mut frame.state.u);
         frame.course.forget();
-        self.condenser.forget_direction();
+        self.condenser.reset_predictor();
         self.choose_candidates(model, frame, contact);
         self.condenser.drop_at_rest();
         self.condense(model, frame, contact);
@@ -252,12 +260,12 @@ impl Solver {
             frames: None,
         };
         let (mut gaps, mut size) = (0.0, 0.0_f64);
-        let histories = &self.contacts(frame).interfaces;
-        let interfaces = contact.interfaces.iter_mut().zip(histories);
-        for (interface, history) in interfaces.filter(|(i, _)| i.schedule.active(trial.to)) {
+        let mut forces = contact.forces(self.contacts(frame), &self.conditions);
+        let interfaces = forces.interfaces.iter_mut();
+        for interface in interfaces.filter(|i| i.schedule.active(trial.to)) {
             let own = match pending {
-                true => look::initial_gaps(interface.view(history)),
-                false => gaps_at(&mut interface.force(history), &stage),
+                true => look::initial_gaps(interface.view()),
+                false => gaps_at(interface, &stage),
             };
             let own = own.into_iter().filter(|gap| gap.is_finite());
             gaps += own.map(f64::abs).fold(0.0, f64::max);

@@ -118,7 +118,7 @@ impl Inertia {
             }
         }
         add_rigid_mass(model, &mut mass);
-        for &(point, m) in &model.masses {
+        for &(point, m) in &model.actions.masses {
             (0..dim).for_each(|i| mass.add_diagonal(model.dofs.of(point, i), m));
         }
         let damping = damping(model, stiffness, &mass);
@@ -439,7 +439,11 @@ fn light_points(model: &Model, contact: &Contact, redistributed: &[bool]) -> Vec
         }
     }
     // What is fixed to a point keeps it from following others without inertia.
-    model.masses.iter().for_each(|(p, _)| light[*p] = false);
+    model
+        .actions
+        .masses
+        .iter()
+        .for_each(|(p, _)| light[*p] = false);
     light
 }
 
@@ -477,7 +481,7 @@ pub(crate) fn lumped(model: &Model) -> Vec<f64> {
     for body in model.elastic() {
         body.elastic.add_lumped_mass(&mut masses);
     }
-    for &(point, m) in &model.masses {
+    for &(point, m) in &model.actions.masses {
         masses[point] += m;
     }
     masses

@@ -10,6 +10,7 @@ use super::condenser::Condenser;
 use super::floating_bodies::Floating;
 use super::inertia::Inertia;
 use super::work::Seen;
+use crate::contact::interface::Conditions;
 use crate::linear::{BlockCsr, Digest, Engine, Matrix};
 use crate::model::contact::Contact;
 use crate::model::definition::{Model, Solution};
@@ -38,6 +39,8 @@ pub(crate) struct Solver {
     pub inertia: Option<Inertia>,
     /// How many matrices of increments in motion there have been: no key is given twice.
     pub keys: u64,
+    /// What holds for each interface in the increment at hand.
+    pub conditions: Vec<Conditions>,
     /// Bodies that only contact can hold.
     pub floating: Floating,
     /// Iterations that nobody has been told of.
@@ -63,8 +66,8 @@ pub(crate) struct Log {
 }
 
 impl Solver {
-    /// With the stiffness of the model, but for an analysis of explicit steps alone.
-    pub fn new(model: &Model, library: Arc<Library>) -> Self {
+    /// With the stiffness of the model, but for an analysis of explicit steps alone, and so many interfaces.
+    pub fn new(model: &Model, interfaces: usize, library: Arc<Library>) -> Self {
         let identity = identity(model);
         let by_cells = ByCells::new(model, identity);
         let stiffness: Arc<dyn Matrix> = match suffices(model) {
@@ -75,18 +78,22 @@ impl Solver {
             diagonal: stiffness.diagonal(),
             linear: (model.is_corotational()).then(|| linear_part(model, entries(&stiffness))),
             stiffness,
-            newton: Newton::new(model.settings),
-            method: match (model.method, model.engine.as_dyn().condenses()) {
+            newton: Newton::new(model.solution.settings),
+            method: match (
+                model.solution.method,
+                model.solution.engine.as_dyn().condenses(),
+            ) {
                 (Solution::Automatic, true) => Solution::Condensed,
                 (method, _) => method,
             },
-            factors: match model.method {
+            factors: match model.solution.method {
                 Solution::Multigrid => Factors::multigrid(model.places()),
                 _ => Factors::default(),
             },
             condenser: Condenser::new(library),
             inertia: None,
             keys: 0,
+            conditions: vec![Conditions::default(); interfaces],
             floating: Floating::default(),
             seen: Seen::default(),
             log: Log::default(),
@@ -100,7 +107,7 @@ impl Solver {
     }
 
     /// Nothing moves any more: what was made of the masses goes.
-    pub fn come_to_rest(&mut self) {
+    pub fn end_dynamics(&mut self) {
         if let Some(inertia) = self.inertia.take() {
             self.keys = inertia.keys();
         }
@@ -135,7 +142,7 @@ impl Solver {
                 (matrix, diagonal, key, none, Some(origin))
             }
         };
-        let mut forces = contact.forces(task.contacts);
+        let mut forces = contact.forces(task.contacts, &self.conditions);
         let forces = match origin {
             None => self.floating.with(forces.all()),
             Some(_) => forces.all(),
@@ -182,7 +189,7 @@ fn identity(model: &Model) -> Identity {
     for link in model.links.all() {
         digest.bytes(format!("{link:?}").as_bytes());
     }
-    for &(dof, k) in model.springs.iter().flat_map(|s| s.entries()) {
+    for &(dof, k) in model.actions.springs.iter().flat_map(|s| s.entries()) {
         digest.word(dof as u64);
         digest.floats(&[k]);
     }

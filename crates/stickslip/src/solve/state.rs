@@ -162,7 +162,7 @@ impl Solver {
         state: SolverState,
         model: &Model,
         frame: &Frame,
-        contact: &mut Contact,
+        contact: &Contact,
     ) -> Result<(), StepFailure> {
         let recipe = state.inertia;
         if recipe.is_some() || state.method != Solution::Condensed {
@@ -214,7 +214,7 @@ impl Solver {
         at_rest: AtRest,
         model: &Model,
         frame: &Frame,
-        contact: &mut Contact,
+        contact: &Contact,
     ) -> Result<Condensed, StepFailure> {
         let Bodies {
             held,
@@ -247,7 +247,7 @@ impl Solver {
         bodies: Bodies,
         model: &Model,
         frame: &Frame,
-        contact: &mut Contact,
+        contact: &Contact,
     ) -> Result<Moving, StepFailure> {
         let Bodies {
             held,

@@ -8,7 +8,7 @@ use stickslip::contact::look;
 
 use stickslip::Error;
 use stickslip::assess::View;
-use stickslip::contact::interface::set_user_laws;
+use stickslip::contact::interface::with_user_laws;
 use stickslip::contact::law::user::{LimitFunction, PressureFunction};
 use stickslip::model::Solution;
 use stickslip::problem::Problem;
@@ -74,7 +74,7 @@ fn going_on_by_one_increment_shows_the_state_of_each_and_gives_the_bits_of_a_run
         let mut whole = Diary::default();
         let mut run = simulation(method);
         run.run(&mut [&mut whole]).unwrap();
-        assert_eq!(run.summary.method, method);
+        assert_eq!(run.summary.solved_by.method, method);
         assert_eq!(whole.rows.len(), 22);
 
         let mut seen = Diary::default();
@@ -92,7 +92,7 @@ fn going_on_by_one_increment_shows_the_state_of_each_and_gives_the_bits_of_a_run
             }
         }
         assert_eq!(seen, whole, "{method}");
-        assert!(stepwise.summary.completed);
+        assert!(stepwise.summary.run.completed);
         // It is over, and nothing more is told.
         assert!(!stepwise.advance(&mut [&mut seen]).unwrap());
         assert_eq!(seen.ended, 1);
@@ -117,13 +117,19 @@ fn an_interrupted_analysis_keeps_its_results_and_goes_on() {
         assert!(matches!(outcome, Err(Error::Interrupted(_))), "{method}");
         assert!(!seen.rows.is_empty() && seen.rows.len() < 22, "{method}");
         assert_eq!(seen.ended, 1);
-        assert!(!interrupted.summary.completed);
-        assert!(interrupted.summary.outcome.starts_with("interrupted at"));
-        assert_eq!(interrupted.summary.cutbacks, 0);
+        assert!(!interrupted.summary.run.completed);
+        assert!(
+            interrupted
+                .summary
+                .run
+                .outcome
+                .starts_with("interrupted at")
+        );
+        assert_eq!(interrupted.summary.attempts.cutbacks, 0);
         assert_eq!(seen.rows[..], whole.rows[..seen.rows.len()], "{method}");
 
         interrupted.run(&mut [&mut seen]).unwrap();
-        assert!(interrupted.summary.completed);
+        assert!(interrupted.summary.run.completed);
         assert_eq!(seen.rows.len(), 22);
         let (a, b) = (&seen.states[21], &whole.states[21]);
         let size = b.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
@@ -172,9 +178,9 @@ fn a_search_by_forces_is_interrupted_between_two_columns_of_its_operator() {
         let begin = begin.expect("questions");
         assert!(streak(begin) > 20, "{method:?}: {}", streak(begin));
         // One an increment for each component of a point, however many friction problems it takes.
-        let columns = whole.summary.solver.columns;
+        let columns = whole.summary.cost.solver.columns;
         assert!(
-            columns > 20 && columns <= 2 * 21 * whole.summary.fallbacks.len(),
+            columns > 20 && columns <= 2 * 21 * whole.summary.attempts.fallbacks.len(),
             "{method:?}: {columns}"
         );
 
@@ -184,12 +190,15 @@ fn a_search_by_forces_is_interrupted_between_two_columns_of_its_operator() {
         // It is answered at once, and what is asked of no solution any more.
         assert!(asked.len() <= middle + 2, "{} {middle}", asked.len());
         assert_eq!(asked[..middle], questions[..middle]);
-        assert!(stopped.summary.fallbacks.len() < whole.summary.fallbacks.len());
-        assert_eq!(stopped.summary.cutbacks, 0);
+        assert!(stopped.summary.attempts.fallbacks.len() < whole.summary.attempts.fallbacks.len());
+        assert_eq!(stopped.summary.attempts.cutbacks, 0);
 
         stopped.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(stopped.frame.state.u, whole.frame.state.u, "{method:?}");
-        assert_eq!(stopped.summary.fallbacks, whole.summary.fallbacks);
+        assert_eq!(
+            stopped.summary.attempts.fallbacks,
+            whole.summary.attempts.fallbacks
+        );
     }
 }
 
@@ -240,11 +249,9 @@ fn laws_of_the_program_do_what_the_same_laws_of_the_problem_do() {
             .replace("friction.coulomb = { mu = 0.3 }", "");
         let mut setup = support::problem(&other).build(Path::new("")).unwrap();
         let functions = Arc::new(Functions::default());
-        set_user_laws(
-            &mut setup.contact.interfaces[0],
-            Some(functions.clone()),
-            Some(functions.clone()),
-        );
+        let interface = &mut setup.contact.interfaces[0];
+        interface.definition =
+            with_user_laws(interface, Some(functions.clone()), Some(functions.clone()));
         let mut simulation = Simulation::new(setup).unwrap();
         let mut seen = Diary::default();
         simulation.run(&mut [&mut seen]).unwrap();
@@ -256,8 +263,8 @@ fn laws_of_the_program_do_what_the_same_laws_of_the_problem_do() {
         let (own, plain) = (&simulation.summary, &plain.summary);
         assert!(own.quality.met);
         for (a, b) in [
-            (own.energy.friction, plain.energy.friction),
-            (own.energy.contact, plain.energy.contact),
+            (own.balance.energy.friction, plain.balance.energy.friction),
+            (own.balance.energy.contact, plain.balance.energy.contact),
         ] {
             assert!((a / b - 1.0).abs() < 1e-6, "{a} {b}");
         }
@@ -265,7 +272,10 @@ fn laws_of_the_program_do_what_the_same_laws_of_the_problem_do() {
         let points = simulation.contact.interfaces[0].points.len();
         let calls = functions.calls.load(Ordering::Relaxed);
         assert!(functions.asked.load(Ordering::Relaxed) >= points * calls);
-        assert!(calls < 8 * (own.iterations + own.increments), "{calls}");
+        assert!(
+            calls < 8 * (own.attempts.iterations + own.attempts.increments),
+            "{calls}"
+        );
     }
 }
 
@@ -331,6 +341,7 @@ fn somebody_who_waits_hears_of_iterations_and_ways_while_they_go_on() {
             others > 0,
             simulation
                 .summary
+                .attempts
                 .fallbacks
                 .iter()
                 .any(|f| f.tried.iterations > 0)

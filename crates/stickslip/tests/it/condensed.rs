@@ -191,7 +191,7 @@ fn check(name: &str) {
         }
         let (condensed, after) = run(condensed);
         assert_eq!(
-            after.summary.method, "condensed",
+            after.summary.solved_by.method, "condensed",
             "{name}: {:?}",
             after.summary.notes
         );
@@ -378,7 +378,7 @@ fn where_an_interior_does_not_balance_the_sparse_matrix_goes_on() {
         let said = (summary.notes.iter()).filter(|n| n.contains("with the sparse matrix"));
         assert_eq!(said.count(), usize::from(fails), "{:?}", summary.notes);
         let method = if fails { "sparse" } else { "condensed" };
-        assert_eq!(summary.method, method);
+        assert_eq!(summary.solved_by.method, method);
         // Every increment is there once, those that were taken back included.
         assert_eq!(condensed.times, sparse.times);
         assert!(condensed.times.len() >= 8);
@@ -422,14 +422,17 @@ fn a_slab_whose_points_all_change_status_at_once_comes_to_rest() {
     };
     let (condensed, sparse) = (run("condensed"), run("sparse"));
     assert_eq!(
-        (condensed.cutbacks, condensed.method.as_str()),
+        (
+            condensed.attempts.cutbacks,
+            condensed.solved_by.method.as_str()
+        ),
         (0, "condensed")
     );
     assert!(
-        condensed.iterations <= sparse.iterations + 3,
+        condensed.attempts.iterations <= sparse.attempts.iterations + 3,
         "{} and {}",
-        condensed.iterations,
-        sparse.iterations
+        condensed.attempts.iterations,
+        sparse.attempts.iterations
     );
     let (a, b) = (&condensed.last, &sparse.last);
     assert!(a["base.CFN3"].abs() > 1e6);

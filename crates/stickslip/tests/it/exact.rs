@@ -141,7 +141,7 @@ fn settles_within(text: &str, most: f64) -> Vec<f64> {
     assert_eq!(
         record.cutbacks, 0,
         "{:?}",
-        simulation.summary.cutback_reasons
+        simulation.summary.attempts.cutback_reasons
     );
     let median = median(&record);
     assert!(median <= most, "{median}");
@@ -198,7 +198,7 @@ slip.regularised = { epsilon = 1e-9 }
     // VERIFICATION P2 A, with the same exact solution as from the seated block
     let u = row.get("A.U1").expect("A.U1");
     assert!((u / 2.840_424_1e-5 - 1.0).abs() < 1e-6, "{u}");
-    let tried = &simulation.summary.fallbacks;
+    let tried = &simulation.summary.attempts.fallbacks;
     let kinds: Vec<Strategy> = tried.iter().map(|f| f.tried.kind).collect();
     assert_eq!(kinds, [Strategy::FrictionProblem]);
     assert!(tried[0].tried.converged);

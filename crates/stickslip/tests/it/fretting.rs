@@ -77,7 +77,7 @@ interface.joint = {{ secondary = "layer.top", primary = "flat.bottom", roles = "
     let mut simulation = support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
     let interface = &mut simulation.contact.interfaces[0];
     let primary = interface.primary_nodes;
-    for x in &mut interface.definition.reference[primary..] {
+    for x in &mut interface.definition.mesh_mut().reference[primary..] {
         x[1] += VARIES * MEAN / BED * wave(x[0]);
     }
     simulation
@@ -111,7 +111,7 @@ fn jumps_keep_to_the_error_that_is_asked_for() {
         simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
         assert_eq!(simulation.summary.last["CYCLES"], CYCLES as f64);
         assert_eq!(simulation.summary.last["TIME"], 1.0 + CYCLES as f64);
-        let blocks = (simulation.summary.increments - 1) / 4;
+        let blocks = (simulation.summary.attempts.increments - 1) / 4;
         // p = p̄ + p₁ exp(-K k s), and what is worn off differs by the difference of pressures over K.
         let off = (part(&simulation) - VARIES * (-DECADES).exp()).abs();
         let depth = off * 2.0 / std::f64::consts::PI / DECADES;
@@ -162,7 +162,7 @@ fn blocks_that_are_taken_back_leave_no_trace_and_a_run_goes_on_with_the_same_bit
         simulation
             .run(&mut [&mut record])
             .unwrap_or_else(|e| panic!("{e}"));
-        assert!(simulation.summary.cycles_taken_back > 0);
+        assert!(simulation.summary.attempts.cycles_taken_back > 0);
         let column = |name: &str| -> Vec<f64> {
             let rows = record.increments.iter();
             rows.map(|(_, row)| row.get(name).expect("a column"))
@@ -174,7 +174,10 @@ fn blocks_that_are_taken_back_leave_no_trace_and_a_run_goes_on_with_the_same_bit
             "{cycles:?}"
         );
         assert!(times.windows(2).all(|w| w[0] < w[1]), "{times:?}");
-        assert_eq!(simulation.summary.increments, record.increments.len());
+        assert_eq!(
+            simulation.summary.attempts.increments,
+            record.increments.len()
+        );
         restart::check(method, &problem, Path::new("."), 6);
         restart::check_stopped(method, &problem, &[15, 40, 90]);
     }
@@ -511,7 +514,7 @@ fn jumps_that_are_chosen_differ_from_every_cycle_by_no_more_than_the_error() {
         for error in [0.03, 0.1] {
             let jumped = run(&format!("{{ error = {error} }}")).unwrap_or_else(|e| panic!("{e}"));
             assert_eq!(jumped.summary.last["CYCLES"], 30.0);
-            computed += (jumped.summary.increments - 1) as f64 / 8.0 / 60.0;
+            computed += (jumped.summary.attempts.increments - 1) as f64 / 8.0 / 60.0;
             for (exact, found) in worn_off(&every).iter().zip(worn_off(&jumped)) {
                 let deepest = exact.0.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
                 let apart = exact.0.iter().zip(&found.0).map(|(a, b)| (a - b).abs());

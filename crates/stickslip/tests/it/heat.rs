@@ -92,7 +92,7 @@ fn a_body_that_is_free_grows_without_stress_and_keeps_its_quality() {
         let mut simulation = support::build(&problem(&text)).expect("sound");
         simulation.run(&mut []).expect("runs");
         let summary = &simulation.summary;
-        assert!(summary.quality.met && summary.energy_quality.met);
+        assert!(summary.quality.met && summary.balance.energy_quality.met);
         let row = end(&text);
         near(value(&row, "end.U1"), 12e-6 * 100.0 * 0.2, 1e-9);
         near(value(&row, "end.U2"), 12e-6 * 100.0 * 0.1, 1e-9);

@@ -87,11 +87,11 @@ impl Run {
     /// Substructures made, shared and read.
     fn counts(&self) -> [usize; 3] {
         let s = &self.statistics;
-        assert_eq!(s.factorisations, s.substructures_made);
+        assert_eq!(s.factorisations, s.substructures.made);
         [
-            s.substructures_made,
-            s.substructures_shared,
-            s.substructures_read,
+            s.substructures.made,
+            s.substructures.shared,
+            s.substructures.read,
         ]
     }
 }
@@ -106,13 +106,13 @@ fn run(text: &str, library: &Arc<Library>) -> Run {
     simulation
         .run(&mut [&mut record])
         .unwrap_or_else(|e| panic!("{e}"));
-    assert_eq!(simulation.summary.method, "condensed");
+    assert_eq!(simulation.summary.solved_by.method, "condensed");
     let rows = record.increments.iter();
     Run {
         rows: rows
             .map(|(_, row)| row.values.iter().map(|v| v.to_bits()).collect())
             .collect(),
-        statistics: simulation.summary.solver,
+        statistics: simulation.summary.cost.solver,
         notes: (simulation.summary.notes.iter())
             .filter(|note| !note.starts_with("condensed:"))
             .cloned()

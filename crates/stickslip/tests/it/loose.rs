@@ -43,14 +43,14 @@ impl Outcome {
     /// Converged, without anything artificial left, and in balance with the load.
     fn is_sound(&self, what: &str, (columns, load): (&[&str], f64)) {
         let s = &self.summary;
-        assert!(s.completed, "{what}");
+        assert!(s.run.completed, "{what}");
         assert!(
-            s.artificial_energy < 1e-10,
+            s.loose.artificial_energy < 1e-10,
             "{what}: {:e}",
-            s.artificial_energy
+            s.loose.artificial_energy
         );
-        assert!(s.energy.strain > 0.0, "{what}");
-        let left = s.energy_quality.residual;
+        assert!(s.balance.energy.strain > 0.0, "{what}");
+        let left = s.balance.energy_quality.residual;
         assert!(left < LEDGER, "{what}: {left:e} of the energy is missing");
         let carried: f64 = columns.iter().map(|c| self.last(c)).sum();
         let error = (carried / load - 1.0).abs();
@@ -411,7 +411,10 @@ fn a_pin_that_is_let_go_stays_where_it_was() {
         let outcome = loose_pin(mu, increments);
         let what = format!("mu {mu}, {increments}");
         let summary = &outcome.summary;
-        assert!(summary.completed && summary.cutbacks == 0, "{what}");
+        assert!(
+            summary.run.completed && summary.attempts.cutbacks == 0,
+            "{what}"
+        );
         let said = summary
             .notes
             .iter()
@@ -493,8 +496,11 @@ step = [{ name = "press" }]
     for part in ["step press", "translation y", "load.weight", "6.000e4"] {
         assert!(said.contains(part), "`{part}` is missing in {said}");
     }
-    assert_eq!((summary.iterations, summary.increments), (0, 0));
-    assert_eq!(summary.solver.iterations, 0);
+    assert_eq!(
+        (summary.attempts.iterations, summary.attempts.increments),
+        (0, 0)
+    );
+    assert_eq!(summary.cost.solver.iterations, 0);
     let last = summary.findings.last().expect("a finding");
     assert_eq!(last.cause, DoctorCause::FreeRigidMode);
 
@@ -531,7 +537,7 @@ supports = ["pin"]
         said.contains("step release") && said.contains("load.push"),
         "{said}"
     );
-    assert!(summary.increments > 0);
+    assert!(summary.attempts.increments > 0);
 }
 
 /// Four points of a cell of eight nodes do not see one of its motions.
@@ -619,7 +625,10 @@ fn a_load_that_friction_cannot_balance_is_refused_with_the_friction_that_would()
     ] {
         assert!(said.contains(part), "`{part}` is missing in {said}");
     }
-    assert_eq!((summary.increments, summary.solver.iterations), (0, 0));
+    assert_eq!(
+        (summary.attempts.increments, summary.cost.solver.iterations),
+        (0, 0)
+    );
     assert!(
         summary
             .findings
@@ -630,9 +639,9 @@ fn a_load_that_friction_cannot_balance_is_refused_with_the_friction_that_would()
     for part in ["rotation about z", "load.side", "no friction would hold it"] {
         assert!(said.contains(part), "`{part}` is missing in {said}");
     }
-    assert_eq!(summary.solver.iterations, 0);
+    assert_eq!(summary.cost.solver.iterations, 0);
     // What friction can just hold is not refused.
-    assert!(run("held", &pushed(20e6, 0.41)).summary.completed);
+    assert!(run("held", &pushed(20e6, 0.41)).summary.run.completed);
 }
 
 #[test]
@@ -660,7 +669,10 @@ step = [{ name = "press", increments.fixed = 2 }, { name = "push", increments.fi
     ] {
         assert!(said.contains(part), "`{part}` is missing in {said}");
     }
-    assert_eq!((summary.increments, summary.cutbacks), (9, 1));
+    assert_eq!(
+        (summary.attempts.increments, summary.attempts.cutbacks),
+        (9, 1)
+    );
 }
 
 #[test]
@@ -703,7 +715,7 @@ step = [{{ increments.fixed = 2 }}, {{ increments = {{ initial = 0.25, largest =
             floor = -way
         );
         let outcome = run(&format!("{way:e}"), &text);
-        assert!(outcome.summary.completed);
+        assert!(outcome.summary.run.completed);
         outcome.last("ALLFD")
     };
     let ways = [0.3, 1.0, 3.0];
@@ -752,7 +764,7 @@ fn what_followed_a_loose_body_at_rest_has_no_part_in_motion() {
         let force = found.last("f.CFN2");
         // A weight that lay still goes on doing so.
         assert!((force / weight - 1.0).abs() < 0.02, "{steps:?}: {force}");
-        let followed = found.summary.followed;
+        let followed = found.summary.loose.followed;
         let rests = steps.iter().filter(|s| **s == REST).count();
         assert!(followed >= 1 && followed <= 20 * rests, "{followed}");
         // What anchors were left in is not seen in motion.

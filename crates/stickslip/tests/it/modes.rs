@@ -410,8 +410,8 @@ fn a_motion_that_begins_along_a_mode_has_its_eigenvalue() {
         simulation
     };
     let fastest = run("amplitude = 1e-4");
-    let [told] = &fastest.summary.growth[..] else {
-        panic!("{:?}", fastest.summary.growth);
+    let [told] = &fastest.summary.vibrations.growth[..] else {
+        panic!("{:?}", fastest.summary.vibrations.growth);
     };
     near(told.growth, 0.407292624, 1e-8);
     near(told.measured_growth, 0.407292624, 1e-3 * 0.4);
@@ -422,13 +422,14 @@ fn a_motion_that_begins_along_a_mode_has_its_eigenvalue() {
     let last = &fastest.summary.last;
     assert!(last["MODE.REST"] < 1e-3, "{last:?}");
     // What the kick brought in is in the ledger, but for what it stored in the contact.
-    let energy = &fastest.summary.energy;
+    let energy = &fastest.summary.balance.energy;
     assert!(energy.residual.abs() < 1e-5 * energy.friction, "{energy:?}");
     let modes = &fastest.modes[0].modes;
     let decaying = (0..modes.len()).min_by(|&a, &b| modes[a].growth.total_cmp(&modes[b].growth));
     let number = decaying.unwrap() + 1;
     let slowest = run(&format!("amplitude = 1e-3, mode = {number}"))
         .summary
+        .vibrations
         .growth;
     near(slowest[0].growth, -0.407292624, 1e-8);
     // Its partner comes up out of rounding.

@@ -55,7 +55,7 @@ fn end(text: &str, method: &str) -> (Vec<f64>, Statistics) {
     let others = notes.filter(|n| !n.starts_with("the ledger") && !n.starts_with("friction took"));
     let others: Vec<&String> = others.collect();
     assert!(others.is_empty(), "{others:?}");
-    let solver = simulation.summary.solver;
+    let solver = simulation.summary.cost.solver;
     (simulation.frame.state.u, solver)
 }
 
@@ -73,7 +73,7 @@ fn same(name: &str, text: &str, most: usize) -> Statistics {
         "{name}: {apart:e} of {size:e}"
     );
     assert!(
-        counts.factorisations == 0 && counts.setups > 0,
+        counts.factorisations == 0 && counts.hierarchies.setups > 0,
         "{counts:?}"
     );
     assert!(each <= most as f64, "{name}: {each} iterations");
@@ -91,7 +91,7 @@ fn cubes_stick_and_slip() {
                 .replace("ENFORCEMENT", enforcement)
                 .replace("SLIDE", slide);
             let counts = same(&format!("{enforcement} {slide}"), &text, 30);
-            assert_eq!(counts.setups, 1, "{counts:?}");
+            assert_eq!(counts.hierarchies.setups, 1, "{counts:?}");
             let surfaces = text.replace("discretisation.node-to-facet = {}", "");
             same(&format!("mortar {enforcement} {slide}"), &surfaces, 45);
         }
@@ -107,7 +107,10 @@ fn pairs_that_drift_are_followed() {
         "name = \"slide\"\nincrements.fixed = 6",
     );
     let counts = same("drift", &text, 30);
-    assert!(counts.setups == 1 && counts.refreshes >= 5, "{counts:?}");
+    assert!(
+        counts.hierarchies.setups == 1 && counts.hierarchies.refreshes >= 5,
+        "{counts:?}"
+    );
 }
 
 /// Points between nodes have no gap variables: their stiffness is part of the matrix.

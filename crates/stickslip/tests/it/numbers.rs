@@ -279,7 +279,12 @@ fn what_nothing_shakes_does_not_move() {
     let setup = problem.build(Path::new(".")).expect("a model");
     let mut simulation = Simulation::new(setup).expect("a simulation");
     simulation.run(&mut []).expect("an answer");
-    let outcome = simulation.summary.modes.last().expect("an outcome");
+    let outcome = simulation
+        .summary
+        .vibrations
+        .modes
+        .last()
+        .expect("an outcome");
     let response = outcome.response.as_ref().expect("a response");
     assert_eq!(response.rows.len(), 5);
     let still = |row: &stickslip::modal::ResponseRow| {

@@ -64,7 +64,7 @@ fn faces_meet_nothing_through_their_own_body() {
         let smallest = report.interfaces[0].smallest;
         assert!(smallest > -0.05, "{lower}: {smallest}");
         simulation.run(&mut []).expect("equilibria");
-        assert_eq!(simulation.summary.cutbacks, 0, "{lower}");
+        assert_eq!(simulation.summary.attempts.cutbacks, 0, "{lower}");
     }
 }
 
@@ -80,11 +80,11 @@ fn a_pole_pressed_on_a_pole_comes_to_rest_on_one_of_its_facets() {
         let mut simulation = balls("tet4", "tet4", 0.15, &joint);
         simulation.run(&mut []).expect("equilibria");
         let summary = &simulation.summary;
-        assert_eq!(summary.cutbacks, 0, "{friction}");
+        assert_eq!(summary.attempts.cutbacks, 0, "{friction}");
         assert!(
-            summary.iterations <= 15 * summary.increments,
+            summary.attempts.iterations <= 15 * summary.attempts.increments,
             "{friction}: {}",
-            summary.iterations
+            summary.attempts.iterations
         );
     }
 }

@@ -19,7 +19,7 @@ fn record(text: &str) -> Record {
     outcome.unwrap_or_else(|e| panic!("{e}\n{text}"));
     for method in METHODS {
         if text.contains(&format!("solver.method = \"{method}\"")) {
-            assert_eq!(simulation.summary.method, method, "{text}");
+            assert_eq!(simulation.summary.solved_by.method, method, "{text}");
         }
     }
     record

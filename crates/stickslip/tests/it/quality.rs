@@ -762,7 +762,7 @@ const FLOOR_COMES: &str = "support.hold = { set = \"block.top\", x = 0.0, y = 0.
 
 /// Largest residual over the largest energy in play, at the end of every increment.
 fn residual(simulation: &Simulation) -> f64 {
-    simulation.summary.energy_quality.residual
+    simulation.summary.balance.energy_quality.residual
 }
 
 #[test]
@@ -772,7 +772,7 @@ fn work_is_that_along_the_path_where_gaps_close_within_increments() {
         for increments in ["fixed = 1", "fixed = 3", "initial = 0.1"] {
             let step = format!("step = [{{ increments = {{ {increments} }} }}]\n");
             let simulation = run(&format!("{OVER_A_GAP}{driven}{step}"));
-            let e = &simulation.summary.energy;
+            let e = &simulation.summary.balance.energy;
             let stored = e.strain + e.contact;
             let work = [e.external_work, e.belt_work];
             let [all, none] = match what {
@@ -814,13 +814,13 @@ fn the_ledger_closes_where_points_open_close_and_begin_to_slide_within_increment
     ];
     for (line, what) in laws {
         let text = bodies.replace("support.base", &format!("{line}support.base"));
-        let fine = run_in(&text, 40).summary.energy;
+        let fine = run_in(&text, 40).summary.balance.energy;
         for increments in [1, 2, 5, 10] {
             let simulation = run_in(&text, increments);
             let left = residual(&simulation);
             assert!(left < 1e-3, "{what}, {increments}: {left:e}");
             // What friction took is known as well as is said.
-            let e = &simulation.summary.energy;
+            let e = &simulation.summary.balance.energy;
             let off = (e.friction - fine.friction).abs();
             let most = e.uncertain + fine.uncertain + 0.02 * fine.friction;
             assert!(
@@ -857,7 +857,7 @@ fn the_ledger_closes_where_loads_jump_and_supports_let_go() {
             let simulation = run(&format!(
                 "{bodies}{driven}solver.method = \"{method}\"\n{steps}"
             ));
-            let (left, e) = (residual(&simulation), &simulation.summary.energy);
+            let (left, e) = (residual(&simulation), &simulation.summary.balance.energy);
             // Sliding by 1e-3 of the size changes who faces whom.
             assert!(left < 1e-4, "{method}, {increments}: {left:e}, {e:?}");
             assert!(e.strain > 0.0);
@@ -877,7 +877,7 @@ support.press = { set = "block.top", x = 0.0, y = 0.0, z = -0.01, amplitude = "p
 amplitude.press.table = [[0, 0], [1, 1]]
 step = [{ increments.fixed = 1 }, { increments.fixed = 10 }]
 "#);
-    let e = &simulation.summary.energy;
+    let e = &simulation.summary.balance.energy;
     assert!(e.friction > 0.0 && residual(&simulation) < 1e-3, "{e:?}");
     // Nothing else moves in the second step.
     assert!(e.belt_work > e.friction, "{e:?}");
@@ -912,10 +912,10 @@ support.catch = {{ set = "b", hold = ["x"] }}
             "step = [{{ supports = [\"catch\"], increments.fixed = 1 }}, {{ supports = [], duration = 0.5, {dynamic} }}]\n"
         );
         let simulation = run(&format!("{text}{steps}"));
-        let e = &simulation.summary.energy;
+        let e = &simulation.summary.balance.energy;
         // The block has the velocity of the table, 0 at the end; half-way it had 0.0628 m/s: 0.079 J.
         assert!(e.belt_work.abs() < 1e-2, "{dynamic}: {e:?}");
-        let scale = simulation.summary.energy_quality.scale;
+        let scale = simulation.summary.balance.energy_quality.scale;
         assert!(scale > 0.075, "{dynamic}: {scale:e}");
         assert!(
             simulation.summary.quality.met,
@@ -986,7 +986,7 @@ fn a_body_that_leaves_without_any_force_has_a_balance() {
     let simulation = run(&text);
     let gate = &simulation.summary.quality;
     assert!(gate.met && !gate.failed(), "{:#?}", violated(&simulation));
-    assert!(simulation.summary.energy.strain.abs() < 1e-16);
+    assert!(simulation.summary.balance.energy.strain.abs() < 1e-16);
 }
 
 /// A shaft in a hub, larger by this much, whose axle turns by this angle: `rotation` of the shaft, and what ties it to its axle.

@@ -339,7 +339,7 @@ fn what_a_run_writes_is_told_before_it() {
 #[test]
 fn a_checkpoint_of_another_model_is_refused() {
     let mut run = begin(&kinds("sparse"), Path::new("."));
-    while run.summary.increments == 0 {
+    while run.summary.attempts.increments == 0 {
         run.advance(&mut []).unwrap_or_else(|e| panic!("{e}"));
     }
     let bytes = run.checkpoint().expect("between increments").to_bytes();

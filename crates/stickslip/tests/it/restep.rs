@@ -2,7 +2,7 @@
 
 use crate::support;
 use stickslip::contact::enforcement::EnforcementModel;
-use stickslip::contact::interface::{History, Interface, InterfaceForce, commit};
+use stickslip::contact::interface::{Conditions, History, Interface, InterfaceForce, commit};
 use stickslip::contact::kinematics::KinematicsModel;
 use stickslip::contact::law::slip::SlipModel;
 use stickslip::contact::look;
@@ -85,7 +85,8 @@ fn state(interface: &Interface, t: f64, depth: f64, shift: [f64; 2]) -> State {
 
 /// One attempt: two evaluations with an increment and a multiplier update in between, as the solver makes them.
 fn attempt(interface: &mut Interface, history: &History, from: &State, at: &State) -> [Bits; 3] {
-    let interface = &mut interface.force(history);
+    let conditions = Conditions::default();
+    let interface = &mut interface.force(history, &conditions);
     let stage = Stage {
         from,
         at,
@@ -157,7 +158,10 @@ fn an_attempt_repeated_gives_the_same_bits() {
             rate: None,
             frames: None,
         };
-        history = commit(&mut interface.force(&history), &stage);
+        history = commit(
+            &mut interface.force(&history, &Conditions::default()),
+            &stage,
+        );
         let energy = look::energy(interface.view(&history));
 
         let slid = state(&interface, 2.0, 1.5e-6, [3e-3, -2e-3]);
@@ -191,7 +195,10 @@ fn an_attempt_repeated_gives_the_same_bits() {
             rate: None,
             frames: None,
         };
-        history = commit(&mut interface.force(&history), &stage);
+        history = commit(
+            &mut interface.force(&history, &Conditions::default()),
+            &stage,
+        );
         assert!(
             look::energy(interface.view(&history)).dissipated > energy.dissipated,
             "{what}"
@@ -236,7 +243,7 @@ fn a_run_with_cutbacks_ends_like_one_without() {
     for (a, b) in with.frame.state.u.iter().zip(&without.frame.state.u) {
         assert!((a - b).abs() <= 1e-9 * size, "{a} {b}");
     }
-    let friction = [&with, &without].map(|s| s.summary.energy.friction);
+    let friction = [&with, &without].map(|s| s.summary.balance.energy.friction);
     assert!(friction[0] > 0.0, "nothing slid");
     assert!(
         (friction[0] / friction[1] - 1.0).abs() < 1e-8,

@@ -85,8 +85,8 @@ step = [{{ duration = 2.0, dynamic = {{ scheme.central-difference = {{}} }} }}]
     );
     let mut simulation = support::build(&problem(&text)).expect("sound");
     simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
-    assert!(simulation.summary.increments < 200);
-    assert_eq!(simulation.summary.stable_increment, 0.0);
+    assert!(simulation.summary.attempts.increments < 200);
+    assert_eq!(simulation.summary.explicit.stable_increment, 0.0);
     near(simulation.summary.last["top.U1"], 6.0, 1e-12);
 }
 
@@ -495,7 +495,7 @@ dynamic.scheme.central-difference = {{}}
         simulation
             .run(&mut [])
             .unwrap_or_else(|e| panic!("{epsilon:e}: {e}"));
-        counts.push(simulation.summary.increments);
+        counts.push(simulation.summary.attempts.increments);
         let row = &simulation.summary.last;
         // What the spring of the interface swings with after it has stopped a body that it lets creep no more.
         let spring = limit / (2.0 * 1e4 / 0.5 * mass).sqrt();
@@ -535,7 +535,7 @@ dynamic.scheme.central-difference = {{}}
         simulation
             .run(&mut [])
             .unwrap_or_else(|e| panic!("{epsilon:e}: {e}"));
-        let count = simulation.summary.increments;
+        let count = simulation.summary.attempts.increments;
         assert!(count < 100, "{epsilon:e}: {count} increments");
         let row = &simulation.summary.last;
         let creep = epsilon * (1.0 - 0.5_f64.sqrt());

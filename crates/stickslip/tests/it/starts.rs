@@ -129,11 +129,15 @@ fn overlap_is_resolved_over_the_step() {
     }
     // what the overlap puts in is in the bodies, and the ledger knows
     let summary = &simulation.summary;
-    assert!(summary.energy_quality.met, "{:?}", summary.energy);
     assert!(
-        summary.energy.residual.abs() < 1e-6 * summary.energy.strain,
+        summary.balance.energy_quality.met,
         "{:?}",
-        summary.energy
+        summary.balance.energy
+    );
+    assert!(
+        summary.balance.energy.residual.abs() < 1e-6 * summary.balance.energy.strain,
+        "{:?}",
+        summary.balance.energy
     );
     // the same at the end as at once
     near(

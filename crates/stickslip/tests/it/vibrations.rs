@@ -180,7 +180,7 @@ fn a_sliding_pad_answers_as_the_dense_matrices_do() {
             .position(|e| e.2 == dof as f64)
             .unwrap()
     };
-    let at: Vec<usize> = (simulation.model.probes.iter())
+    let at: Vec<usize> = (simulation.model.reports.probes.iter())
         .flat_map(|p| [0, 1].map(|c| unknown(2 * p.point + c)))
         .collect();
     let mut forces = vec![0.0; unknowns.shape[0]];

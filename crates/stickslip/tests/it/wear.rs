@@ -221,7 +221,7 @@ wear.archard = {{ coefficient = {k} }}
     );
     let mut simulation = support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
     let interface = &mut simulation.contact.interfaces[0];
-    for x in &mut interface.definition.reference {
+    for x in &mut interface.definition.mesh_mut().reference {
         x[1] += wave(x[0]);
     }
     simulation
@@ -253,8 +253,8 @@ fn parts(mut simulation: Simulation, wave: impl Fn(f64) -> f64) -> Vec<f64> {
         let more = simulation
             .advance(&mut [])
             .unwrap_or_else(|e| panic!("{e}"));
-        if simulation.summary.increments > last {
-            last = simulation.summary.increments;
+        if simulation.summary.attempts.increments > last {
+            last = simulation.summary.attempts.increments;
             out.push(part(&simulation, &wave));
         }
         if !more {
@@ -500,8 +500,8 @@ wear.archard = {{ coefficient = 1e-3, primary-coefficient = 1e-3 }}
         simulation
     };
     let [all, some] = ["count = 20", "count = 20, jump = 8"].map(run);
-    assert_eq!(all.summary.increments, 1 + 80 + 2);
-    assert_eq!(some.summary.increments, 1 + 12 + 2);
+    assert_eq!(all.summary.attempts.increments, 1 + 80 + 2);
+    assert_eq!(some.summary.attempts.increments, 1 + 12 + 2);
     for simulation in [&all, &some] {
         assert_eq!(simulation.summary.last["CYCLES"], 20.0);
         // What comes after the cycles in the amplitude comes after all of them.

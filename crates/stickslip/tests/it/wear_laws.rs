@@ -305,7 +305,7 @@ fn both_surfaces_wear_in_motion_as_they_do_at_rest() {
             // Whatever the force is, friction takes its part of what wears.
             let rubbed = simulation.summary.last["joint.ALLFD"] / 0.1;
             close(volume(&simulation), 3e-6 * rubbed, 2e-3, &what);
-            let energy = &simulation.summary.energy_quality;
+            let energy = &simulation.summary.balance.energy_quality;
             assert!(energy.residual < 0.02, "{what}: {energy:?}");
         }
     }

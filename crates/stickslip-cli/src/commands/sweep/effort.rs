@@ -81,21 +81,21 @@ pub fn line(run: usize, seconds: f64, summary: Option<&Summary>) -> String {
     match summary {
         None => cells.resize(NAMES.len(), String::new()),
         Some(s) => {
-            let solver = &s.solver;
+            let solver = &s.cost.solver;
             let counts = [
                 solver.factorisations,
-                solver.substructures_shared,
-                solver.substructures_read,
+                solver.substructures.shared,
+                solver.substructures.read,
             ];
             cells.extend(counts.map(|n| n.to_string()));
-            let p = &s.phases;
+            let p = &s.cost.phases;
             let phases = [
                 p.read, p.assemble, p.order, p.factor, p.condense, p.iterate, p.contact, p.recover,
                 p.write,
             ];
             cells.extend(phases.map(|seconds| format!("{seconds:.6}")));
-            cells.push(s.peak_memory.to_string());
-            cells.push(s.threads.to_string());
+            cells.push(s.cost.peak_memory.to_string());
+            cells.push(s.cost.threads.to_string());
         }
     }
     cells.join(",")

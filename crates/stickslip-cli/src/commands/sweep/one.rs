@@ -100,7 +100,7 @@ fn simulate(
 ) -> Ended {
     match Simulation::with_library(setup, Arc::clone(&shared.library)) {
         Ok(mut simulation) => {
-            simulation.summary.phases.read = read;
+            simulation.summary.cost.phases.read = read;
             simulation.set_interrupt(Arc::clone(&shared.interrupt));
             simulation.set_watch(Arc::clone(&shared.watch));
             let error = simulation.run(observers).err();

@@ -26,7 +26,11 @@ impl Row {
     /// Takes over what a summary says.
     pub fn with_summary(mut self, summary: Option<Summary>) -> Self {
         if let Some(s) = summary {
-            self.counts = Some([s.increments, s.iterations, s.cutbacks]);
+            self.counts = Some([
+                s.attempts.increments,
+                s.attempts.iterations,
+                s.attempts.cutbacks,
+            ]);
             self.last = s.last;
         }
         self

@@ -12,7 +12,7 @@ use crate::math::{add_scaled, scale};
 use crate::system::{InSpace, PointAlone, Stage};
 
 /// What every point would carry if it was pressed and stuck, and within which limit. `None` where laws are not asked point by point, or are none.
-pub(super) fn points_alone(
+pub(super) fn stick_trials(
     interface: InterfaceInput,
     cache: &mut Cache,
     stage: &Stage,
@@ -93,7 +93,7 @@ fn limit_alone(interface: InterfaceInput, e: &Evaluation) -> PointLaw {
 }
 
 /// Takes the forces of a friction problem for multipliers where these are unknowns; a point without any carries nothing.
-pub(super) fn adopt_forces(interface: &mut InterfaceForce, forces: &[Option<[f64; 3]>]) {
+pub(super) fn set_multipliers(interface: &mut InterfaceForce, forces: &[Option<[f64; 3]>]) {
     if !interface.view().unknown() {
         return;
     }

@@ -16,7 +16,7 @@ pub struct Attempt {
     /// The last evaluation, a tentative one, may become the next iterate.
     pub(in crate::contact) tentative: bool,
     /// Nothing has been in contact yet, and this is the first tangent of the attempt.
-    pub(in crate::contact) never_in_contact: bool,
+    pub(in crate::contact) before_first_contact: bool,
     /// Gap that multipliers leave as it is where a point stays in contact `[m]`.
     pub(in crate::contact) accepted_gap: f64,
     /// How often the stiffness of the enforcement has been raised tenfold, and the violation after the round before.
@@ -34,7 +34,7 @@ impl Attempt {
         self.flips.resize(histories.len(), Flips::default());
         self.changed = 0;
         self.tentative = false;
-        self.never_in_contact = histories.iter().all(|h| h.status == Status::Open);
+        self.before_first_contact = histories.iter().all(|h| h.status == Status::Open);
         self.accepted_gap = accepted_gap;
         self.tightened = 0;
         self.violation = None;
@@ -131,7 +131,7 @@ impl Flips {
     }
 
     /// Whether it keeps going to and fro between facets.
-    pub fn goes_to_and_fro(&self) -> bool {
+    pub fn oscillates(&self) -> bool {
         self.returns >= RETURNS
     }
 
@@ -146,7 +146,7 @@ crate::keep!(Attempt {
     flips,
     changed,
     tentative,
-    never_in_contact,
+    before_first_contact,
     accepted_gap,
     tightened,
     violation
@@ -205,12 +205,12 @@ mod tests {
             (
                 a.changed,
                 a.tentative,
-                a.never_in_contact,
+                a.before_first_contact,
                 a.tightened,
                 a.violation,
             )
         };
         assert_eq!(rest(&again), rest(&first));
-        assert!(!first.never_in_contact);
+        assert!(!first.before_first_contact);
     }
 }

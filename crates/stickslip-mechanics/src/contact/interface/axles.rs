@@ -8,7 +8,7 @@ use super::definition::InterfaceDefinition;
 use crate::system::{Assembler, BodyFrames, Tangent};
 
 /// Adds to the tangent what holds axles back, of bodies in these frames, that forces `b` by dof, out of balance, would turn.
-pub(super) fn hold_axles(
+pub(super) fn damp_axles(
     definition: &InterfaceDefinition,
     frames: &BodyFrames,
     b: &[f64],

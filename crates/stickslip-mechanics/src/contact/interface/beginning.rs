@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::conditions::Conditions;
 use super::history::History;
 use super::initial::{CLOSE, GLUE, Start, Within};
 use super::parts::Interface;
@@ -10,7 +11,13 @@ use crate::contact::surface::ContactPoint;
 use crate::system::{Stage, State};
 
 /// Takes note of the gaps with which the interface begins to act, if it has not begun yet, in a step from `span[0]` to `span[1]`.
-pub fn begin_acting(interface: &mut Interface, state: &mut History, stage: &Stage, span: [f64; 2]) {
+pub fn begin_acting(
+    interface: &mut Interface,
+    state: &mut History,
+    conditions: &Conditions,
+    stage: &Stage,
+    span: [f64; 2],
+) {
     if state.start.begun || !interface.schedule.active(0.5 * (span[0] + span[1])) {
         return;
     }
@@ -20,7 +27,7 @@ pub fn begin_acting(interface: &mut Interface, state: &mut History, stage: &Stag
     if !matches!(interface.initial.start, Start::Offset | Start::Ramp) {
         return;
     }
-    let gaps = all_gaps_at(&mut interface.force(state), stage);
+    let gaps = all_gaps_at(&mut interface.force(state, conditions), stage);
     let largest = match interface.initial.start {
         Start::Offset => interface.initial.within.unwrap_or(CLOSE),
         _ => Within::Distance(0.0),
@@ -58,7 +65,7 @@ pub fn glue(interface: &mut Interface, state: &mut History, stage: &Stage) {
         rate: None,
         frames: stage.frames,
     };
-    let gaps = all_gaps_at(&mut interface.force(state), &still);
+    let gaps = all_gaps_at(&mut interface.force(state, &Conditions::default()), &still);
     let within = interface.initial.within.unwrap_or(GLUE);
     let near = |(gap, p): (f64, &ContactPoint)| {
         if gap.abs() <= within.of(p.size) {

@@ -1,8 +1,8 @@
 //! Which points an interface looks at: those that may come into contact soon.
 
 use super::candidates::{closest_of_all, update_candidates};
+use super::conditions::{CandidatePoints, Conditions};
 use super::definition::{InterfaceDefinition, Primary};
-use super::history::History;
 use super::parts::Interface;
 use super::search::Search;
 use super::view::ContactView;
@@ -32,39 +32,37 @@ const MARGIN: f64 = 2.0;
 /// Part of the reach within which contact is expected to stay.
 const INNER: f64 = 0.5;
 
-/// Lets only those points take part that are within reach at displacements `u`, and marks their nodes and those they may meet among all
+/// The points that take part because they are within reach at displacements `u`; marks their nodes and those they may meet among all
 /// points of the mesh. What is marked already, and what has been in contact, takes part in any case.
 pub fn restrict_to_candidates(
-    interface: &mut Interface,
-    state: &History,
+    interface: ContactView,
     u: &[f64],
     range: CandidateRange,
     kept: &mut [bool],
-) {
+) -> CandidatePoints {
     let x = interface.coordinates(u);
-    let distances = distances(interface.view(state), &x, range);
+    let distances = distances(interface, &x, range);
     let length = |nodes: &[usize]| distance(x[nodes[0]], x[nodes[1]]);
     let facets = interface.facets().iter().map(|f| length(&f.nodes));
     let size = facets.fold(0.0, f64::max);
-    let near = facets_near(&interface.definition, &x, &distances, range, size);
+    let near = facets_near(interface.definition, &x, &distances, range, size);
     let own = interface.points.iter().map(|p| p.size).fold(0.0, f64::max);
     let limit = range.distance + MARGIN * size.max(own);
     let mut excluded = Vec::with_capacity(distances.len());
     let mut inner = Vec::with_capacity(distances.len());
     for (i, (point, &d)) in interface.points.iter().zip(&distances).enumerate() {
         let known = point.nodes.iter().all(|&n| kept[interface.nodes[n]]);
-        let included = d <= limit || known || state.points[i].status != Status::Open;
+        let included = d <= limit || known || interface.state.points[i].status != Status::Open;
         excluded.push(!included);
         inner.push(d <= INNER * limit || known);
         if included {
-            mark(interface.view(state), i, near.get(i), kept);
+            mark(interface, i, near.get(i), kept);
         }
     }
     if excluded.iter().all(|excluded| !excluded) {
         excluded.clear();
     }
-    interface.conditions.excluded = excluded;
-    interface.conditions.inner = inner;
+    CandidatePoints { excluded, inner }
 }
 
 /// Facets that points may meet which are within reach of the primary, by point; nothing of an obstacle.
@@ -110,28 +108,18 @@ fn mark(interface: ContactView, i: usize, near: Option<&Vec<usize>>, kept: &mut 
 }
 
 /// Lets all points take part and marks all nodes.
-pub fn include_all(interface: &mut Interface, kept: &mut [bool]) {
-    interface.conditions.excluded.clear();
-    interface.conditions.inner.clear();
+pub fn include_all(interface: &InterfaceDefinition, kept: &mut [bool]) -> CandidatePoints {
     for &node in &interface.nodes {
         kept[node] = true;
     }
+    CandidatePoints::default()
 }
 
 /// Whether contact has come so near to points that do not take part that they should.
-pub fn spreads(interface: &Interface) -> bool {
-    if interface.conditions.excluded.is_empty() {
-        return false;
-    }
-    let points = interface
-        .cache
-        .last
-        .points
-        .iter()
-        .zip(&interface.conditions.inner);
-    points
-        .into_iter()
-        .any(|(e, &inner)| !inner && e.response.status != Status::Open)
+pub fn spreads(interface: &Interface, conditions: &Conditions) -> bool {
+    let CandidatePoints { excluded, inner } = &conditions.candidates;
+    let mut points = interface.cache.last.points.iter().zip(inner);
+    !excluded.is_empty() && points.any(|(e, &inner)| !inner && e.response.status != Status::Open)
 }
 
 /// Distances from the primary, whatever side of it.

@@ -1,8 +1,6 @@
 //! Laws that are exchanged between two steps.
 
-use super::energies::stored_energy;
-use super::history::History;
-use super::parts::Interface;
+use super::definition::InterfaceDefinition;
 use crate::contact::law::friction::FrictionModel;
 use crate::contact::law::normal::NormalModel;
 
@@ -20,16 +18,16 @@ pub struct Change {
     pub friction: Option<FrictionModel>,
 }
 
-/// Takes other laws, between two increments, in place of those of the problem or the program. The energy `[J]` by which the law now stores more is returned.
-pub fn change(interface: &mut Interface, state: &History, change: &Change) -> f64 {
-    let before = stored_energy(interface.view(state));
+/// The interface with these laws in place of those of the problem or the program.
+pub fn changed(interface: &InterfaceDefinition, change: &Change) -> InterfaceDefinition {
+    let mut laws = interface.laws.clone();
     if let Some(normal) = &change.normal {
-        interface.definition.laws.normal = normal.clone();
-        interface.definition.laws.user.normal = None;
+        laws.normal = normal.clone();
+        laws.user.normal = None;
     }
     if let Some(friction) = &change.friction {
-        interface.definition.laws.friction = friction.clone();
-        interface.definition.laws.user.friction = None;
+        laws.friction = friction.clone();
+        laws.user.friction = None;
     }
-    stored_energy(interface.view(state)) - before
+    interface.with_laws(laws)
 }

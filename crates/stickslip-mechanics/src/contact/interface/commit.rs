@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::belt::belt_path;
 use super::cache::Cache;
-use super::cone::judge_friction;
+use super::cone::friction_error;
 use super::definition::{InterfaceDefinition, Primary};
 use super::energies::stored_energy;
 use super::evaluation::{Evaluation, Evaluations};
@@ -17,7 +17,7 @@ use super::pass::evaluate_all;
 use super::scene::Wants;
 use super::sides::{leave_traces, opposite};
 use super::view::ContactView;
-use super::worn::{hollow_out, path, rubbed, wears_off};
+use super::worn::{add_nodal_wear, path, sliding_distance, wear_increment};
 use crate::contact::enforcement::Multipliers;
 use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
@@ -56,7 +56,7 @@ struct Increment {
 /// What the committed history becomes: the trial, and what that adds to the energies.
 pub fn commit(interface: &mut InterfaceForce, stage: &Stage) -> History {
     let active = interface.schedule.active(stage.at.t);
-    let cone = judge_friction(interface, stage);
+    let cone = friction_error(interface, stage);
     let nodal = nodal_forces(interface.definition, &interface.cache.last, active);
     trust_multipliers(&mut interface.cache.last.points);
     let (input, cache) = interface.parts();
@@ -114,7 +114,7 @@ pub fn commit(interface: &mut InterfaceForce, stage: &Stage) -> History {
     }
     next.energy.dissipated += dissipated;
     leave_traces(input.definition, last, &traces, &mut next);
-    hollow_out(input.definition, last, &volumes, &mut next);
+    add_nodal_wear(input.definition, last, &volumes, &mut next);
     wear_ground(input, last, &volumes, stage, &mut next);
     let stored = stored_energy(ContactView {
         definition: input.definition,
@@ -252,9 +252,9 @@ fn pass(
         false => 0.0,
     };
     let [dissipated, uncertain, excess] = dissipated(interface, h, e, part, resolved);
-    let path = rubbed(interface.definition, r, e.frames.before, e.moved);
+    let path = sliding_distance(interface.definition, r, e.frames.before, e.moved);
     let pressed = (0.5 * (h.pressure + r.traction[0]) * path).max(0.0);
-    let worn = wears_off(interface, h, e, pressed, dissipated, dt);
+    let worn = wear_increment(interface, h, e, pressed, dissipated, dt);
     let whole = interface.points[i].area * interface.share;
     let covered = if whole > 0.0 { e.area / whole } else { 0.0 };
     // Slip so far goes along with the surface, as tractions do.
@@ -297,14 +297,14 @@ fn pass(
             path: h.path + interface.conditions.cycles() * path,
             spent: h.spent + interface.conditions.cycles() * dissipated,
             limit,
-            sheared: sheared(interface, shear, e.tangential_stiffness),
+            sheared: sheared(interface.contact, shear, e.tangential_stiffness),
             stiffness: [e.normal_stiffness, e.tangential_stiffness],
         },
     }
 }
 
 /// Elastic energy per area of the spring by which a point sticks; multipliers that are updated leave nothing in it.
-pub(super) fn sheared(interface: InterfaceInput, shear: Vec3, stiffness: f64) -> f64 {
+pub(super) fn sheared(interface: ContactView, shear: Vec3, stiffness: f64) -> f64 {
     let updated = matches!(
         interface.laws.enforcement.as_dyn().multipliers(),
         Multipliers::Augmented { .. }

@@ -19,17 +19,26 @@ crate::keep!(Steady {
     velocity
 });
 
+/// Which points of an interface take part.
+#[derive(Debug, Clone, Default)]
+pub struct CandidatePoints {
+    /// Points that do not; empty where all do.
+    pub(in crate::contact) excluded: Vec<bool>,
+    /// Points within the part of the reach in which contact is expected to stay.
+    pub(in crate::contact) inner: Vec<bool>,
+}
+
+crate::keep!(CandidatePoints { excluded, inner });
+
 /// What holds in an attempt: who evaluates for something else does so under conditions of its own.
 #[derive(Debug, Clone)]
 pub struct Conditions {
     /// Mass per area behind each point `[kg/m²]`; empty where it plays no part.
-    pub(in crate::contact) inertia: Vec<f64>,
+    pub inertia: Vec<f64>,
     /// Tractions are means over the increment, as where masses meet what does not give way, not those at its end.
     pub impulses: bool,
-    /// Points that do not take part; empty where all do.
-    pub(in crate::contact) excluded: Vec<bool>,
-    /// Points within the part of the reach in which contact is expected to stay.
-    pub(in crate::contact) inner: Vec<bool>,
+    /// Which points take part.
+    pub candidates: CandidatePoints,
     /// Cycles beside that at hand which it stands for: what slides wears as often as that in addition.
     pub skipped: f64,
     /// Sliding lasts; `None` where friction sees slips over increments as it does otherwise.
@@ -43,8 +52,7 @@ impl Default for Conditions {
         Conditions {
             inertia: Vec::new(),
             impulses: false,
-            excluded: Vec::new(),
-            inner: Vec::new(),
+            candidates: CandidatePoints::default(),
             skipped: 0.0,
             steady: None,
             pace: 1.0,
@@ -53,9 +61,9 @@ impl Default for Conditions {
 }
 
 impl Conditions {
-    /// The same where all that slides by itself does so many times as fast.
-    pub fn at_pace(&self, factor: f64) -> Self {
-        let steady = self.steady.map(|steady| Steady {
+    /// The same where this sliding lasts, and all that slides by itself does so many times as fast.
+    pub fn at_pace(&self, sliding: Option<Steady>, factor: f64) -> Self {
+        let steady = sliding.map(|steady| Steady {
             velocity: scale(factor, steady.velocity),
             turning: scale(factor, steady.turning),
             ..steady
@@ -68,7 +76,7 @@ impl Conditions {
     }
 
     /// How many times wear counts what slides.
-    pub(super) fn cycles(&self) -> f64 {
+    pub(in crate::contact) fn cycles(&self) -> f64 {
         1.0 + self.skipped
     }
 }
@@ -76,8 +84,7 @@ impl Conditions {
 crate::keep!(Conditions {
     inertia,
     impulses,
-    excluded,
-    inner,
+    candidates,
     skipped,
     steady,
     pace

@@ -20,7 +20,7 @@ const GIVEN: f64 = 1e-2;
 
 /// Judges the last evaluation at the end of an increment, while the history is still that of its start. A point that slips has to carry its
 /// limit, in the tangent plane and not along its slip, with the kinematics of the paper against it; one that sticks carries no more than its limit.
-pub(super) fn judge_friction(interface: &InterfaceForce, stage: &Stage) -> Cone {
+pub(super) fn friction_error(interface: &InterfaceForce, stage: &Stage) -> Cone {
     let law = interface.laws.friction_law();
     let mut cone = Cone::default();
     if !law.frictional() || interface.laws.tied || !interface.schedule.active(stage.at.t) {
@@ -39,7 +39,7 @@ pub(super) fn judge_friction(interface: &InterfaceForce, stage: &Stage) -> Cone 
         }
         let shear = e.along(&e.frames.now);
         let size = norm(shear);
-        let (moved, unsure) = moved_over(interface, i, e, stage);
+        let (moved, unsure) = relative_slip(interface, i, e, stage);
         let speed = norm(moved) / stage.dt;
         // What the speed changes is the law's, and it sees another measure of it.
         let limit = match interface.laws.user.friction {
@@ -101,7 +101,12 @@ fn compliance(interface: &InterfaceForce, i: usize, e: &Evaluation) -> f64 {
 /// How far the point has moved over the material of the primary beneath it, along the surface, belt included, and how uncertain that is. In dynamics
 /// what its velocity at the end makes of the increment. What was apart at the start of the increment has swung towards each other as far as the
 /// surfaces have turned on the way, and that was no slip: by less than the gap there was.
-fn moved_over(interface: &InterfaceForce, i: usize, e: &Evaluation, stage: &Stage) -> (Vec3, f64) {
+fn relative_slip(
+    interface: &InterfaceForce,
+    i: usize,
+    e: &Evaluation,
+    stage: &Stage,
+) -> (Vec3, f64) {
     let tangential = |v: Vec3| add_scaled(v, -dot(v, e.frames.normal), e.frames.normal);
     if e.steady {
         let x = interface.points[i].position(&interface.cache.geometry.x);

@@ -23,11 +23,9 @@ pub enum Primary {
     Rigid(ObstacleShape, Motion),
 }
 
-/// What an interface is: all that the problem says of it. Node indices in points and facets are positions in `nodes`.
+/// The two sides of an interface. Node indices in points and facets are positions in `nodes`.
 #[derive(Debug, Clone)]
-pub struct InterfaceDefinition {
-    /// Name in the problem file.
-    pub name: String,
+pub struct InterfaceMesh {
     /// Numbering of the unknowns.
     pub dofs: Dofs,
     /// Mesh points of both sides.
@@ -58,6 +56,20 @@ pub struct InterfaceDefinition {
     pub clamped: Vec<[bool; 3]>,
     /// How thick the primary is behind its facets.
     pub walls: Walls,
+    /// How far a point may lie beyond the outer edge of the primary and still be carried, relative to the facet.
+    pub edge_tolerance: f64,
+    /// Height of the real surface above the mesh at each point, towards the primary `[m]`; empty where they are the same. To first order, as of waves that are
+    /// long beside their heights.
+    pub relief: Vec<f64>,
+}
+
+/// What an interface is: all that the problem says of it.
+#[derive(Debug, Clone)]
+pub struct InterfaceDefinition {
+    /// Name in the problem file.
+    pub name: String,
+    /// Its sides; shared by what differs in laws alone.
+    pub mesh: Arc<InterfaceMesh>,
     /// Part of the pressure that this interface carries: a half where the other surface is secondary in another one.
     pub share: f64,
     /// The points are those of the side that the problem calls primary, because its cells are smaller. What is reported of forces, slip and normals
@@ -75,13 +87,16 @@ pub struct InterfaceDefinition {
     pub frames: Arc<BodyFrames>,
     /// Whether a body of its sides turns by any angle as a whole, in a frame or free.
     pub turns: bool,
-    /// How far a point may lie beyond the outer edge of the primary and still be carried, relative to the facet.
-    pub edge_tolerance: f64,
     /// What becomes of the gaps of the meshes.
     pub initial: Initial,
-    /// Height of the real surface above the mesh at each point, towards the primary `[m]`; empty where they are the same. To first order, as of waves that are
-    /// long beside their heights.
-    pub relief: Vec<f64>,
+}
+
+impl std::ops::Deref for InterfaceDefinition {
+    type Target = InterfaceMesh;
+
+    fn deref(&self) -> &InterfaceMesh {
+        &self.mesh
+    }
 }
 
 impl InterfaceDefinition {
@@ -248,6 +263,19 @@ impl InterfaceDefinition {
             Primary::Rigid(..) => &[],
         };
         facets.iter().flat_map(|f| f.nodes.iter().copied())
+    }
+
+    /// The sides, to be changed before anything else knows them.
+    pub fn mesh_mut(&mut self) -> &mut InterfaceMesh {
+        Arc::make_mut(&mut self.mesh)
+    }
+
+    /// The same surfaces under other laws.
+    pub(super) fn with_laws(&self, laws: Laws) -> Self {
+        InterfaceDefinition {
+            laws,
+            ..self.clone()
+        }
     }
 
     /// Whether sliding wears off one of the surfaces.

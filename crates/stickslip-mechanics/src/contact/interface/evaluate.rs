@@ -15,7 +15,7 @@ fn evaluate(i: usize, scene: &Scene, anchor: &mut Option<Anchor>, batch: &mut Ba
     let interface = scene.interface;
     let glued = interface.state.start.glued.get(i);
     let unglued = glued.is_some_and(|gap| gap.is_nan());
-    let excluded = interface.conditions.excluded.get(i) == Some(&true);
+    let excluded = interface.conditions.candidates.excluded.get(i) == Some(&true);
     if unglued || excluded && !scene.wants.everywhere {
         return Evaluation::open(f64::INFINITY);
     }

@@ -66,7 +66,7 @@ pub(super) fn integrate_faces(interface: InterfaceInput, geometry: &mut Geometry
         }
     };
     // A face takes part as long as one of its points does. What is frozen must serve for ever.
-    let excluded = &interface.conditions.excluded;
+    let excluded = &interface.conditions.candidates.excluded;
     let all = frozen || wants.everywhere || excluded.is_empty();
     let included = |points: &[usize]| all || points.iter().any(|&p| !excluded[p]);
     integrated.clear();

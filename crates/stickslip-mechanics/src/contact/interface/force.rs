@@ -1,8 +1,8 @@
 //! The interface as Newton's method sees it: the only place that scatters contact into residual and tangent.
 
-use super::alone::{adopt_forces, points_alone};
+use super::alone::{set_multipliers, stick_trials};
 use super::augment::update_multipliers;
-use super::axles::hold_axles;
+use super::axles::damp_axles;
 use super::cache::Cache;
 use super::candidates::{pair_reference, update_candidates};
 use super::curvature::add_curvature;
@@ -87,8 +87,8 @@ impl Force for InterfaceForce<'_> {
             .blocks(&mut out.blocks[first..]);
     }
 
-    fn hold_back(&self, b: &[f64], out: &mut Assembler) {
-        hold_axles(
+    fn damp_step(&self, b: &[f64], out: &mut Assembler) {
+        damp_axles(
             self.definition,
             self.cache.geometry.in_space.frames(),
             b,
@@ -138,11 +138,11 @@ impl Force for InterfaceForce<'_> {
 
     fn alone(&mut self, stage: &Stage) -> Option<Vec<Option<PointAlone>>> {
         let (input, cache) = self.parts();
-        points_alone(input, cache, stage)
+        stick_trials(input, cache, stage)
     }
 
     fn adopt(&mut self, forces: &[Option<[f64; 3]>]) {
-        adopt_forces(self, forces);
+        set_multipliers(self, forces);
     }
 
     fn tally(&self) -> Option<Tally> {
@@ -253,7 +253,7 @@ fn record(interface: &mut InterfaceForce) {
     let unknown = interface.view().unknown();
     let attempt = &mut *interface.attempt;
     let last = &interface.cache.last.points;
-    attempt.never_in_contact = false;
+    attempt.before_first_contact = false;
     attempt.changed = 0;
     for (flips, e) in attempt.flips.iter_mut().zip(last) {
         attempt.changed += usize::from(flips.note(e.response.status));

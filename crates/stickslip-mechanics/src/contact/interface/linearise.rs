@@ -55,7 +55,7 @@ pub fn linearise(interface: &mut InterfaceForce, stage: &Stage) -> Vec<LinearPoi
     interface.prepare(stage);
     interface.begin();
     // What just touches carries nothing.
-    interface.attempt.never_in_contact = false;
+    interface.attempt.before_first_contact = false;
     let wants = Wants {
         tangent: true,
         ..Wants::default()

@@ -43,11 +43,11 @@ crate::keep!(Memory {
 });
 
 /// What it takes along beside its history.
-pub fn memory(interface: &Interface) -> Memory {
+pub fn memory(interface: &Interface, conditions: &Conditions) -> Memory {
     let Cache { last, geometry, .. } = &interface.cache;
     Memory {
         attempt: interface.attempt.clone(),
-        conditions: interface.conditions.clone(),
+        conditions: conditions.clone(),
         searched: geometry.search.at().to_vec(),
         faces_searched: geometry.faces.at().to_vec(),
         merged: geometry.merged.nodes.clone(),
@@ -58,8 +58,13 @@ pub fn memory(interface: &Interface) -> Memory {
 }
 
 /// Goes on with that, and what can be made again made again. Of an interface whose history is that of the memory, after an accepted increment that ended
-/// with displacements `u`, those of increments that wait for their interiors too.
-pub fn remember(interface: &mut Interface, state: &History, memory: Memory, u: &[f64]) {
+/// with displacements `u`, those of increments that wait for their interiors too. The conditions of the memory are returned.
+pub fn remember(
+    interface: &mut Interface,
+    state: &History,
+    memory: Memory,
+    u: &[f64],
+) -> Conditions {
     let Memory {
         attempt,
         conditions,
@@ -70,11 +75,10 @@ pub fn remember(interface: &mut Interface, state: &History, memory: Memory, u: &
         paired,
     } = memory;
     interface.attempt = attempt;
-    interface.conditions = conditions;
     interface.cache = Cache::default();
     let evaluated = !last.is_empty();
     interface.cache.last = Evaluations::of_traces(last);
-    let mut interface = interface.force(state);
+    let mut interface = interface.force(state, &conditions);
     let (interface, Cache { geometry, .. }) = interface.parts();
     geometry.merged.nodes = merged;
     if paired {
@@ -98,4 +102,5 @@ pub fn remember(interface: &mut Interface, state: &History, memory: Memory, u: &
         geometry.faces = super::search::FaceSearch::default();
         geometry.faces.renew(&mortar.faces, facets, &faces_searched);
     }
+    conditions
 }

@@ -1,7 +1,7 @@
 //! The interface as a force.
 //!
 //! What it is ([`InterfaceDefinition`]) is apart from what it knows: the [`History`] that commits write, the [`Attempt`] at the next increment, the
-//! [`Conditions`] of the solver, and the [`Cache`] of what can be made again. An evaluation reads the history and never writes it.
+//! [`Conditions`], an argument that the solver owns, and the [`Cache`] of what can be made again. An evaluation reads the history and never writes it.
 
 mod active_set;
 mod alone;
@@ -65,10 +65,10 @@ pub use attempt::Attempt;
 pub use beginning::{begin_acting, glue};
 pub use cache::Cache;
 pub use candidate_range::{CandidateRange, include_all, restrict_to_candidates, spreads};
-pub use change::{Change, change};
+pub use change::{Change, changed};
 pub use commit::commit;
-pub use conditions::{Conditions, Steady};
-pub use definition::{InterfaceDefinition, Primary};
+pub use conditions::{CandidatePoints, Conditions, Steady};
+pub use definition::{InterfaceDefinition, InterfaceMesh, Primary};
 pub use ground::{Above, Ground};
 pub use history::History;
 pub use hollows::Hollows;
@@ -84,6 +84,6 @@ pub use onset::{
 pub use parts::{Interface, InterfaceForce};
 pub use pass::gaps_at;
 pub use springs::{pull_ties, use_springs};
-pub use stiffness::set_masses;
-pub use user_laws::set_user_laws;
+pub use stiffness::mass_per_area;
+pub use user_laws::with_user_laws;
 pub use view::ContactView;

@@ -1,9 +1,11 @@
 //! Interfaces whose surfaces turn: with each other nothing happens but that tractions turn too; over each other points carry their limit.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use super::commit::commit;
-use super::definition::{InterfaceDefinition, Primary};
+use super::conditions::Conditions;
+use super::definition::{InterfaceDefinition, InterfaceMesh, Primary};
 use super::history::{History, PointHistory};
 use super::parts::Interface;
 use super::view::ContactView;
@@ -197,22 +199,27 @@ fn drum(
     let hollows = Hollows::new(&facets, &reference, |_| 1.0);
     let interface = Interface::new(InterfaceDefinition {
         name: "shoe".into(),
-        dofs: Dofs {
-            dim,
-            points: reference.len(),
-        },
-        nodes: (0..reference.len()).collect(),
-        node_ids: (0..reference.len() as u64).collect(),
-        reference,
-        primary_nodes,
-        points,
-        mortar,
-        neighbours: Vec::new(),
-        primary: Primary::Facets(facets),
-        skin,
-        hollows,
-        clamped: Vec::new(),
-        walls: Default::default(),
+        mesh: Arc::new(InterfaceMesh {
+            dofs: Dofs {
+                dim,
+                points: reference.len(),
+            },
+            nodes: (0..reference.len()).collect(),
+            node_ids: (0..reference.len() as u64).collect(),
+            reference,
+            primary_nodes,
+            points,
+            mortar,
+            neighbours: Vec::new(),
+            primary: Primary::Facets(facets),
+            skin,
+            hollows,
+            clamped: Vec::new(),
+            walls: Default::default(),
+            edge_tolerance: 1e-3,
+            origin: [0.0; 3],
+            relief: Vec::new(),
+        }),
         share: 1.0,
         exchanged: false,
         laws: Laws {
@@ -226,10 +233,7 @@ fn drum(
         schedule: Schedule::always(),
         frames: Default::default(),
         turns: false,
-        edge_tolerance: 1e-3,
-        origin: [0.0; 3],
         initial: Initial::default(),
-        relief: Vec::new(),
     });
     Followed {
         state: History::new(interface.points.len()),
@@ -272,7 +276,8 @@ pub(super) fn accept(
     place: impl Fn(usize, Vec3) -> Vec3,
 ) -> State {
     let at = tried(interface, from, place);
-    let mut force = interface.interface.force(&interface.state);
+    let conditions = Conditions::default();
+    let mut force = interface.interface.force(&interface.state, &conditions);
     interface.state = commit(&mut force, &stage(from, &at));
     at
 }
@@ -307,7 +312,8 @@ pub(super) fn tried(
     let stage = stage(from, &at);
     let mut out = Assembler::new(interface.dofs.count());
     out.reset(true);
-    let mut force = interface.interface.force(&interface.state);
+    let conditions = Conditions::default();
+    let mut force = interface.interface.force(&interface.state, &conditions);
     force.prepare(&stage);
     force.begin();
     force.assemble(&stage, &mut out).expect("forces");
@@ -362,7 +368,8 @@ fn a_pair_that_turns_together_keeps_its_traction() {
             // Surfaces that count from where they are not: one of them is rough.
             for (angle, height) in [(0.01, 0.0), (0.3, 0.0), (1.0, 0.0), (0.3, 1e-4)] {
                 let mut interface = pressed.clone();
-                interface.definition.relief = vec![height; interface.points.len()];
+                let points = interface.points.len();
+                interface.interface.definition.mesh_mut().relief = vec![height; points];
                 let origin = start(&interface);
                 let drum = interface.primary_nodes;
                 // pressed and sheared, within the limit at most points

@@ -166,7 +166,7 @@ fn facet_of(
             let foot = Anchor::at(anchor, f, &facets[f], &geometry.before, before);
             foot.map(|foot| foot.xi)
         });
-        let held = interface.attempt.flips[i].goes_to_and_fro();
+        let held = interface.attempt.flips[i].oscillates();
         let previous = Previous { facet, near, held };
         let places = Places {
             x: &geometry.x,

@@ -53,7 +53,7 @@ pub(super) fn evaluate_mortar(i: usize, scene: &Scene, batch: &mut Batch) -> Eva
         carried: (!interface.kinematics.as_dyn().frozen()).then(carried),
         held: holds_integrals(&interface),
         across: point.across,
-        never_in_contact: interface.attempt.never_in_contact,
+        before_first_contact: interface.attempt.before_first_contact,
     };
     mean.stencil(
         &sums,

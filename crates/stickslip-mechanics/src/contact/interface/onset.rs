@@ -25,13 +25,14 @@ pub struct Tried(Vec<(Status, f64, Vec3)>);
 pub fn add_initial_forces(
     interface: &mut Interface,
     state: &mut History,
+    conditions: &Conditions,
     stage: &Stage,
     residual: &mut [f64],
 ) -> Result<f64, StepFailure> {
     if !interface.schedule.active(stage.at.t) {
         return Ok(0.0);
     }
-    evaluate_initial(&mut interface.force(state), stage);
+    evaluate_initial(&mut interface.force(state, conditions), stage);
     let evaluations = &interface.cache.trial;
     if interface.view(state).unknown() && interface.laws.needs_normal_stiffness() {
         let points = evaluations.points.iter();

@@ -15,8 +15,6 @@ pub struct Interface {
     pub definition: InterfaceDefinition,
     /// The attempt at the next increment.
     pub attempt: Attempt,
-    /// What holds in the attempt.
-    pub conditions: Conditions,
     /// What can be made again.
     pub cache: Cache,
 }
@@ -58,7 +56,6 @@ impl Interface {
         Interface {
             definition,
             attempt: Attempt::default(),
-            conditions: Conditions::default(),
             cache: Cache::default(),
         }
     }
@@ -71,22 +68,17 @@ impl Interface {
         }
     }
 
-    /// It as evaluations see it.
-    pub(in crate::contact) fn input<'a>(&'a self, state: &'a History) -> InterfaceInput<'a> {
-        InterfaceInput {
-            contact: self.view(state),
-            attempt: &self.attempt,
-            conditions: &self.conditions,
-        }
-    }
-
-    /// It as a force that goes on from a history.
-    pub fn force<'a>(&'a mut self, state: &'a History) -> InterfaceForce<'a> {
+    /// It as a force that goes on from a history, under these conditions.
+    pub fn force<'a>(
+        &'a mut self,
+        state: &'a History,
+        conditions: &'a Conditions,
+    ) -> InterfaceForce<'a> {
         InterfaceForce {
             definition: &self.definition,
             state,
             attempt: &mut self.attempt,
-            conditions: &self.conditions,
+            conditions,
             cache: &mut self.cache,
         }
     }

@@ -63,8 +63,8 @@ pub(super) fn respond(met: Met, scene: &Scene, batch: &mut Batch) -> Evaluation 
         pressed: scene.wants.pressed,
         answers: scene.answers.get(i).copied().unwrap_or_default(),
     };
-    see_rate(scene, &slots, batch, &mut at);
-    see_steady(i, scene, batch, &mut at);
+    use_end_velocity(scene, &slots, batch, &mut at);
+    use_steady_velocity(i, scene, batch, &mut at);
     let stencil = &batch.stencil;
     if scene.query != LawQuery::Nothing {
         let friction = match scene.query {
@@ -143,11 +143,16 @@ fn stiffnesses(i: usize, stencil: &Stencil, scene: &Scene) -> Stiffnesses {
         _ => point.stiffness,
     };
     let normal = match interface.laws.needs_normal_stiffness() {
-        true => spring(interface, enforcement.normal(), own),
+        true => spring(
+            interface.contact,
+            interface.attempt,
+            enforcement.normal(),
+            own,
+        ),
         false => f64::INFINITY,
     };
-    let tangential = tangential_stiffness(interface, own);
-    let touches = interface.attempt.never_in_contact && stencil.gap <= TOUCHING * point.size;
+    let tangential = tangential_stiffness(interface.contact, interface.attempt, own);
+    let touches = interface.attempt.before_first_contact && stencil.gap <= TOUCHING * point.size;
     Stiffnesses {
         normal,
         tangential,
@@ -213,7 +218,7 @@ fn closing(interface: InterfaceInput, i: usize, gap: f64, dt: f64) -> f64 {
 }
 
 /// In sliding that lasts friction sees the motion of the primary's surface alone, which no displacement changes.
-fn see_steady(i: usize, scene: &Scene, batch: &mut Batch, at: &mut LawInput) {
+fn use_steady_velocity(i: usize, scene: &Scene, batch: &mut Batch, at: &mut LawInput) {
     let interface = scene.interface;
     if interface.conditions.steady.is_none() {
         return;
@@ -239,7 +244,7 @@ fn see_steady(i: usize, scene: &Scene, batch: &mut Batch, at: &mut LawInput) {
 
 /// In motion friction sees the velocity at the end of the increment. A tie holds places: of points without mass velocities are means over the increment, and a body with mass that went
 /// as fast at its end would fall behind them.
-fn see_rate(scene: &Scene, slots: &Slots, batch: &mut Batch, at: &mut LawInput) {
+fn use_end_velocity(scene: &Scene, slots: &Slots, batch: &mut Batch, at: &mut LawInput) {
     let interface = scene.interface;
     for row in &mut batch.rated {
         row.clear();

@@ -43,8 +43,6 @@ pub fn pull_ties(
 /// What presses already goes on pressing: a spring starts where its force is that of the multiplier it replaces. The energy `[J]` that this
 /// puts into the springs is returned.
 pub fn use_springs(interface: &mut Interface, state: &mut History, springs: bool) -> f64 {
-    // Every step says anew how it is integrated.
-    interface.conditions.impulses = false;
     if state.springs == springs {
         return 0.0;
     }
@@ -69,10 +67,13 @@ pub fn use_springs(interface: &mut Interface, state: &mut History, springs: bool
         state.rest = Arc::new(rest);
     }
     // Springs of stick come or go with the shear that there is; what holds exactly has none.
-    let input = interface.input(state);
-    let points = input.state.points.iter().zip(&input.points);
+    let contact = interface.view(state);
+    let points = state.points.iter().zip(&contact.points);
     let sheared: Vec<f64> = points
-        .map(|(h, p)| sheared(input, h.shear, tangential_stiffness(input, p.stiffness)))
+        .map(|(h, p)| {
+            let stiffness = tangential_stiffness(contact, &interface.attempt, p.stiffness);
+            sheared(contact, h.shear, stiffness)
+        })
         .collect();
     let points = state.points.iter_mut().zip(sheared);
     points.for_each(|(h, sheared)| h.sheared = sheared);

@@ -1,7 +1,9 @@
 //! How stiffly bodies and enforcement resist at a point.
 
+use super::attempt::Attempt;
+use super::definition::InterfaceDefinition;
 use super::input::InterfaceInput;
-use super::parts::Interface;
+use super::view::ContactView;
 use crate::contact::enforcement::{Multipliers, Stiffness};
 use crate::contact::surface::ContactPoint;
 
@@ -12,8 +14,8 @@ const STIFFEST: f64 = 1e6;
 /// rounding of gaps into pressure where supports hold a body already.
 const INERTIA: f64 = 0.4;
 
-/// Tells the masses of the points of the mesh `[kg]`, zero for those that have none; an empty list where inertia plays no part.
-pub fn set_masses(interface: &mut Interface, by_point: &[f64]) {
+/// Mass per area behind each point `[kg/m²]`, from the masses of the points of the mesh `[kg]`; zero where there is none.
+pub fn mass_per_area(interface: &InterfaceDefinition, by_point: &[f64]) -> Vec<f64> {
     let mass = |p: &ContactPoint| -> f64 {
         let nodes = p.nodes.iter().zip(&p.weights);
         nodes
@@ -21,7 +23,7 @@ pub fn set_masses(interface: &mut Interface, by_point: &[f64]) {
             .sum::<f64>()
             .max(0.0)
     };
-    interface.conditions.inertia = interface.points.iter().map(|p| mass(p) / p.area).collect();
+    interface.points.iter().map(|p| mass(p) / p.area).collect()
 }
 
 /// How stiffly the bodies resist at a point `[Pa/m]`: the cell beneath, and over an increment of length `moving` its mass.
@@ -32,29 +34,35 @@ pub(super) fn own_stiffness(interface: InterfaceInput, i: usize, moving: Option<
 }
 
 /// Stiffness against slip at a point whose own is this `[Pa/m]`; infinite where the law alone says what resists.
-pub(super) fn tangential_stiffness(interface: InterfaceInput, own: f64) -> f64 {
-    match interface.laws.needs_tangential_stiffness() {
+pub(super) fn tangential_stiffness(contact: ContactView, attempt: &Attempt, own: f64) -> f64 {
+    match contact.laws.needs_tangential_stiffness() {
         true => spring(
-            interface,
-            interface.laws.enforcement.as_dyn().tangential(),
+            contact,
+            attempt,
+            contact.laws.enforcement.as_dyn().tangential(),
             own,
         ),
-        false if interface.laws.lends_spring(interface.state.springs) => own,
+        false if contact.laws.lends_spring(contact.state.springs) => own,
         false => f64::INFINITY,
     }
 }
 
 /// A stiffness of the enforcement as far as it has been tightened, or that of the cell beneath where explicit springs replace multipliers.
-pub(in crate::contact) fn spring(interface: InterfaceInput, stiffness: Stiffness, own: f64) -> f64 {
-    let multipliers = interface.laws.enforcement.as_dyn().multipliers();
-    if interface.state.springs && multipliers != Multipliers::None {
+pub(in crate::contact) fn spring(
+    contact: ContactView,
+    attempt: &Attempt,
+    stiffness: Stiffness,
+    own: f64,
+) -> f64 {
+    let multipliers = contact.laws.enforcement.as_dyn().multipliers();
+    if contact.state.springs && multipliers != Multipliers::None {
         return own;
     }
     let start = stiffness.resolve(own);
-    if interface.attempt.tightened == 0 {
+    if attempt.tightened == 0 {
         return start;
     }
     // Never softer than asked for, and never so stiff that the bodies drown in rounding.
-    let raised = start * 10_f64.powi(interface.attempt.tightened as i32);
+    let raised = start * 10_f64.powi(attempt.tightened as i32);
     raised.min(STIFFEST * own).max(start)
 }

@@ -2,28 +2,36 @@
 
 use std::sync::Arc;
 
+use super::definition::InterfaceDefinition;
 use super::evaluate::evaluate_points;
 use super::evaluation::{Evaluations, Question};
-use super::parts::Interface;
 use super::scene::{LawQuery, Scene, Wants};
-use crate::contact::law::user::{LimitFunction, PressureFunction, UserFriction, UserNormal};
+use crate::contact::law::user::{
+    LimitFunction, PressureFunction, UserFriction, UserLaws, UserNormal,
+};
 use crate::contact::pairing::Anchor;
-use crate::contact::response::Answers;
+use crate::contact::response::{Answers, Laws};
 
 /// Negative limit relative to the pressure that is none.
 const ROUNDING: f64 = 1e-12;
 
-/// Lets functions of the program take the place of the normal law and the friction law of the problem. To be called before the analysis
+/// The interface with functions of the program in place of the normal law and the friction law of the problem. To be asked for before the analysis
 /// begins.
-pub fn set_user_laws(
-    interface: &mut Interface,
+pub fn with_user_laws(
+    interface: &InterfaceDefinition,
     normal: Option<Arc<dyn PressureFunction>>,
     friction: Option<Arc<dyn LimitFunction>>,
-) {
+) -> InterfaceDefinition {
     let sizes = interface.points.iter().map(|p| p.size).sum::<f64>();
     let length = sizes / interface.points.len().max(1) as f64;
-    interface.definition.laws.user.normal = normal.map(|f| UserNormal::new(f, length));
-    interface.definition.laws.user.friction = friction.map(UserFriction::new);
+    let user = UserLaws {
+        normal: normal.map(|f| UserNormal::new(f, length)),
+        friction: friction.map(UserFriction::new),
+    };
+    interface.with_laws(Laws {
+        user,
+        ..interface.laws.clone()
+    })
 }
 
 /// What laws of the program say at the points of a scene; nothing where there are none.

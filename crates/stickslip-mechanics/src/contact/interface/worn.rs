@@ -111,7 +111,7 @@ pub(super) fn wearing(
         return response;
     }
     for _ in 0..EVALUATIONS {
-        let path = rubbed(interface.definition, &response, stencil.frame_before, moved);
+        let path = sliding_distance(interface.definition, &response, stencil.frame_before, moved);
         let pressure = response.traction[0].max(0.0);
         let worn = softness(interface, i, path, at.dt, pressure);
         let off = worn.depth(pressure) - at.worn.depth(pressure);
@@ -136,7 +136,7 @@ fn deepen(
     response: &mut Response,
 ) {
     let slope = response.d_gap[0][0];
-    let path = rubbed(interface.definition, response, stencil.frame_before, moved);
+    let path = sliding_distance(interface.definition, response, stencil.frame_before, moved);
     if slope == 0.0 || path <= 0.0 {
         return;
     }
@@ -156,7 +156,7 @@ fn deepen(
 
 /// What a point wears off its own side and the other over an increment, per area that it stands for `[m]`. `pressed`: pressure times path by the
 /// trapezoidal rule.
-pub(super) fn wears_off(
+pub(super) fn wear_increment(
     interface: InterfaceInput,
     h: &PointHistory,
     e: &Evaluation,
@@ -164,7 +164,7 @@ pub(super) fn wears_off(
     dissipated: f64,
     dt: f64,
 ) -> [f64; 2] {
-    let path = rubbed(interface.definition, &e.response, e.frames.before, e.moved);
+    let path = sliding_distance(interface.definition, &e.response, e.frames.before, e.moved);
     let pressed = match interface.laws.feedback {
         Feedback::None => pressed,
         // That is what the gap was opened by.
@@ -186,7 +186,7 @@ pub(super) fn wears_off(
 }
 
 /// Adds volumes that points take from the primary to the depths of its corners.
-pub(super) fn hollow_out(
+pub(super) fn add_nodal_wear(
     definition: &InterfaceDefinition,
     last: &Evaluations,
     volumes: &[f64],
@@ -229,7 +229,7 @@ fn wear_rates(definition: &InterfaceDefinition, at: &WearPoint) -> [WearRate; 2]
 }
 
 /// Length of the way over which a point wears: what the spring of a point that sticks gives way is none, in motion neither.
-pub(in crate::contact) fn rubbed(
+pub(in crate::contact) fn sliding_distance(
     definition: &InterfaceDefinition,
     response: &Response,
     frame: [Vec3; 2],

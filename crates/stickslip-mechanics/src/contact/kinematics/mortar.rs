@@ -132,7 +132,7 @@ pub struct MeanPoint<'a> {
     /// What its normal, slip and turn do not have.
     pub across: Across,
     /// Nothing has been in contact yet: surfaces that just touch must not be in contact or apart by the rounding of the integrals.
-    pub never_in_contact: bool,
+    pub before_first_contact: bool,
 }
 
 impl MeanPoint<'_> {
@@ -220,7 +220,7 @@ impl MeanPoint<'_> {
             out.slip[1] = 0.0;
         }
         let rounding = ROUNDING * f64::EPSILON * (largest.sqrt() + self.origin);
-        if self.never_in_contact && gap.abs() <= rounding {
+        if self.before_first_contact && gap.abs() <= rounding {
             gap = 0.0;
         }
         out.gap = gap;

@@ -18,7 +18,7 @@ pub fn excluded_gaps(
     u: &[f64],
     t: f64,
 ) -> Vec<(usize, f64)> {
-    let excluded = &conditions.excluded;
+    let excluded = &conditions.candidates.excluded;
     if excluded.is_empty() {
         return Vec::new();
     }

@@ -56,7 +56,7 @@ pub fn fields(contact: ContactView, out: &mut Fields) {
     add_traces(contact, out);
 }
 
-/// Normal out of the primary, shear on the secondary `[Pa]` and slip `[m]` at each of [`nodes`](crate::contact::interface::InterfaceDefinition::nodes), means as those of [`fields`]; zero where nothing lies opposite.
+/// Normal out of the primary, shear on the secondary `[Pa]` and slip `[m]` at each of [`nodes`](crate::contact::interface::InterfaceMesh::nodes), means as those of [`fields`]; zero where nothing lies opposite.
 pub fn rubbing(contact: ContactView) -> Vec<[Vec3; 3]> {
     let mean = |sum: Sums| match sum.share > 0.0 {
         true => sum.vectors.map(|v| scale(1.0 / sum.share, v)),

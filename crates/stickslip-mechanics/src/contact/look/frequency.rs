@@ -79,7 +79,8 @@ fn stiffest(interface: &Interface, state: &History, i: usize, links: &Links) -> 
     let point = &interface.points[i];
     let own = if interface.laws.needs_normal_stiffness() {
         spring(
-            interface.input(state),
+            interface.view(state),
+            &interface.attempt,
             interface.laws.enforcement.as_dyn().normal(),
             point.stiffness,
         )

@@ -2,11 +2,11 @@
 
 use crate::contact::interface::initial::TOUCHING;
 use crate::contact::interface::symptoms::LastAttempt;
-use crate::contact::interface::{History, Interface};
+use crate::contact::interface::{Conditions, History, Interface};
 use crate::contact::response::Status;
 use crate::system::Tally;
 
-use crate::contact::interface::worn::rubbed;
+use crate::contact::interface::worn::sliding_distance;
 
 /// How many points have another status in the present attempt than at the last accepted state.
 pub fn switched(interface: &Interface, state: &History) -> usize {
@@ -28,11 +28,11 @@ pub fn touches(interface: &Interface) -> bool {
 }
 
 /// The longest way `[m]` that a point which presses has slid over the last increment, times the cycles that it stands for: what [`explicit_limit`](super::explicit_limit) is a limit of.
-pub fn slid(interface: &Interface) -> f64 {
+pub fn slid(interface: &Interface, conditions: &Conditions) -> f64 {
     let pressed = (interface.cache.last.points.iter()).filter(|e| e.response.traction[0] > 0.0);
-    let ways =
-        pressed.map(|e| rubbed(&interface.definition, &e.response, e.frames.before, e.moved));
-    ways.fold(0.0, f64::max) * (1.0 + interface.conditions.skipped)
+    let ways = pressed
+        .map(|e| sliding_distance(&interface.definition, &e.response, e.frames.before, e.moved));
+    ways.fold(0.0, f64::max) * conditions.cycles()
 }
 
 /// Statuses at the last evaluation, or at the last accepted state where there is none.

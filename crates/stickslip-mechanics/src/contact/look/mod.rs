@@ -35,7 +35,7 @@ pub use last::{slid, statuses, switched, tally, touches};
 pub use normals::{normals, outward};
 pub use opposite_sheet::opposite_sheet;
 pub use oscillation::{neighbours, oscillation};
-pub use passing::passes_through;
+pub use passing::tunnels;
 pub use pressing::{Pressing, pressing};
 pub use quality::{
     Balance, Quality, balance, numerical_factor, on_springs, quality, tie_spring_energy,

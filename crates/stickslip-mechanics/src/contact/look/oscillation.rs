@@ -195,9 +195,9 @@ pub fn oscillation(contact: ContactView) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact::interface::History;
     use crate::contact::interface::history::PointHistory;
     use crate::contact::interface::tests::sample;
-    use crate::contact::interface::{History, Interface, InterfaceDefinition};
     use crate::contact::kinematics::KinematicsModel;
     use crate::shape::ElementKind;
 
@@ -232,12 +232,11 @@ mod tests {
                 across: Default::default(),
             })
             .collect();
-        let mut interface = Interface::new(InterfaceDefinition {
-            neighbours: neighbours(&points, &facets, &reference),
-            nodes: (0..reference.len()).collect(),
-            points,
-            ..sample(ElementKind::Quad4, KinematicsModel::default()).definition
-        });
+        let mut interface = sample(ElementKind::Quad4, KinematicsModel::default());
+        let mesh = interface.definition.mesh_mut();
+        mesh.neighbours = neighbours(&points, &facets, &reference);
+        mesh.nodes = (0..reference.len()).collect();
+        mesh.points = points;
         let inner = &interface.neighbours[SIDE + 1];
         assert_eq!(*inner, [1, SIDE, SIDE + 2, 2 * SIDE + 1]);
         let history = reference.iter().enumerate().map(|(k, x)| PointHistory {
@@ -248,7 +247,7 @@ mod tests {
             points: history.collect(),
             ..History::default()
         };
-        interface.definition.reference = reference;
+        interface.definition.mesh_mut().reference = reference;
         oscillation(interface.view(&state))
     }
 

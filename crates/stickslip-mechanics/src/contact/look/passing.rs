@@ -19,7 +19,7 @@ const NONE: f64 = 1.0;
 
 /// By how much more than at either end its sides overlap on the straight way between two displacements by dof and times `[m]`; `None` where they do not, and where they go too
 /// short a way to miss anything.
-pub fn passes_through(
+pub fn tunnels(
     contact: ContactView,
     [from, to]: [&[f64]; 2],
     [before, after]: [f64; 2],

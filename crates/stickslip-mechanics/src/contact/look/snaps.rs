@@ -1,7 +1,9 @@
 //! Where points of the secondary are moved before anything is computed, so that they lie on the primary.
 
+use std::sync::Arc;
+
 use crate::contact::interface::search::Search;
-use crate::contact::interface::{CLOSE, InterfaceDefinition, Primary, Within};
+use crate::contact::interface::{CLOSE, InterfaceDefinition, InterfaceMesh, Primary, Within};
 use crate::contact::surface::{ContactPoint, skin};
 use crate::math::{Vec3, add_scaled, dot, normalize, scale, sub};
 
@@ -11,10 +13,14 @@ use crate::contact::interface::candidates::{closest_of_all, update_candidates};
 pub fn snaps(definition: &InterfaceDefinition, t: f64) -> Vec<(usize, Vec3)> {
     let points = nodal_points(definition);
     let facets = definition.skin.iter().map(|s| s.facet.clone()).collect();
-    let nodal = InterfaceDefinition {
+    let mesh = InterfaceMesh {
         // Faces know their points by number.
         skin: skin(facets, &points, None),
         points,
+        ..InterfaceMesh::clone(definition)
+    };
+    let nodal = InterfaceDefinition {
+        mesh: Arc::new(mesh),
         ..definition.clone()
     };
     let x = nodal.reference.clone();

@@ -161,7 +161,7 @@ impl Bulk for CondensedBulk<'_> {
         self.before.clone_from(&self.now);
         self.step = solved.forces;
         self.condensation.scatter(&solved.displacements, du);
-        statistics.seconds_solve += started.elapsed().as_secs_f64();
+        statistics.seconds.solve += started.elapsed().as_secs_f64();
         Ok(solved.iterations)
     }
 

@@ -63,7 +63,7 @@ fn beyond(view: &View, t: f64, slight: f64) -> Option<Finding> {
         let own = model.references.iter().filter(|r| r.body == Some(index));
         let own = own.map(|r| &model.links.all()[r.link]);
         dofs.extend(own.flat_map(|link| link.motions(model.dofs)).map(|m| m.0));
-        let sprung = model.springs.iter().flat_map(|s| s.entries());
+        let sprung = model.actions.springs.iter().flat_map(|s| s.entries());
         let sprung = sprung
             .into_iter()
             .any(|(dof, k)| *k > 0.0 && dofs.contains(dof));

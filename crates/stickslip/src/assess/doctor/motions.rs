@@ -30,7 +30,7 @@ pub(super) struct FloatingBody {
 pub(super) fn floating(view: &View, t: f64, rows: &[Row]) -> Vec<FloatingBody> {
     let model = view.model;
     let mut held = view.supported(t);
-    for spring in &model.springs {
+    for spring in &model.actions.springs {
         for &(dof, stiffness) in spring.entries() {
             held[dof] |= stiffness > 0.0;
         }

@@ -128,7 +128,7 @@ pub(crate) fn watched(view: &View, watches: &[Watch]) -> Vec<Finding> {
 
 /// Bodies without frames of their own that are strained, where their energy is, by more than forces of a linear theory may be wrong. With frames there is a figure for it.
 fn strained(view: &View) -> Vec<Finding> {
-    let limits = &view.model.quality;
+    let limits = &view.model.reports.quality;
     let limit = limits.strain_limit();
     // Where a limit is given the gate judges all bodies.
     let judged = |b: &&Body| view.has_frames(b) || limits.strain.is_some();

@@ -12,7 +12,7 @@ use super::sets::Sets;
 use super::surfaces::{Numbering, Surfaces};
 use crate::contact::enforcement::Multipliers;
 use crate::contact::interface::{
-    Above, Ground, Hollows, Initial, InterfaceDefinition, Primary, Start,
+    Above, Ground, Hollows, Initial, InterfaceDefinition, InterfaceMesh, Primary, Start,
 };
 use crate::contact::law::wear::{Feedback, WearRate};
 use crate::contact::look::neighbours;
@@ -340,23 +340,27 @@ impl Make<'_> {
         let hollows = self.hollows(&opposite, above, &primary.key)?;
         let mut interface = InterfaceDefinition {
             name,
-            dofs: Dofs {
-                dim: surfaces.space.dim(),
-                points: mesh.points.len(),
-            },
-            node_ids: nodes.iter().map(|&n| mesh.point_ids[n]).collect(),
-            neighbours,
-            skin,
-            origin,
-            nodes,
-            primary_nodes,
-            points,
-            mortar,
-            hollows,
-            walls: Walls::default(),
-            primary: opposite,
-            reference,
-            clamped: Vec::new(),
+            mesh: Arc::new(InterfaceMesh {
+                dofs: Dofs {
+                    dim: surfaces.space.dim(),
+                    points: mesh.points.len(),
+                },
+                node_ids: nodes.iter().map(|&n| mesh.point_ids[n]).collect(),
+                neighbours,
+                skin,
+                origin,
+                nodes,
+                primary_nodes,
+                points,
+                mortar,
+                hollows,
+                walls: Walls::default(),
+                primary: opposite,
+                reference,
+                clamped: Vec::new(),
+                edge_tolerance: EDGE_TOLERANCE,
+                relief: Vec::new(),
+            }),
             share,
             exchanged: false,
             laws: chosen(table),
@@ -365,9 +369,7 @@ impl Make<'_> {
             schedule: self.schedule.clone(),
             frames: Arc::default(),
             turns: false,
-            edge_tolerance: EDGE_TOLERANCE,
             initial: self.initial(&secondary.key)?,
-            relief: Vec::new(),
         };
         if let Some(angle) = table.discretisation().as_dyn().weighted() {
             mirrors::mark(&mut interface, self.held, angle.to_radians());

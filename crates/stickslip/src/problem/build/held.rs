@@ -2,7 +2,7 @@
 //!
 //! A multiplier of contact changes a motion. Where a support prescribes that of a node, or a reference point or another tie does, the constraint of the node would act
 //! on whatever of the opposite surface is left to move, by a small weight and so with any force. Such nodes are marked here, once, for all interfaces: on faces of a mortar
-//! their neighbours take over (`contact/mortar/merge.rs`), of points at nodes that move as one only one is left, and where both sides are clamped nothing is left to be kept apart (`InterfaceDefinition::clamped`).
+//! their neighbours take over (`contact/mortar/merge.rs`), of points at nodes that move as one only one is left, and where both sides are clamped nothing is left to be kept apart (`InterfaceMesh::clamped`).
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -177,19 +177,20 @@ impl<'a> HeldNodes<'a> {
         let (tied, dim) = (interface.laws.tied, self.dofs.dim);
         let (theirs, own) = interface.nodes.split_at(interface.primary_nodes);
         let repeated = self.repeated(theirs, own);
-        interface.clamped = (interface.nodes.iter()).map(|&n| self.clamped(n)).collect();
-        let Some(mortar) = &mut interface.mortar else {
+        let mesh = interface.mesh_mut();
+        mesh.clamped = (mesh.nodes.iter()).map(|&n| self.clamped(n)).collect();
+        let Some(mortar) = &mut mesh.mortar else {
             return;
         };
         for face in &mut mortar.faces {
             for (a, held) in face.held.iter_mut().enumerate() {
-                let node = interface.nodes[face.nodes[a]];
+                let node = mesh.nodes[face.nodes[a]];
                 let mut axes = match self.tied.contains(&node) {
                     true => [true; 3],
                     false => self.of(node, &self.held),
                 };
                 axes = std::array::from_fn(|c| axes[c] || repeated.contains_key(&(node, c)));
-                let across = interface.points[face.points[a]].across.0;
+                let across = mesh.points[face.points[a]].across.0;
                 axes = std::array::from_fn(|c| axes[c] && !across[c]);
                 *held = match tied {
                     true => axes[..dim].contains(&true),

@@ -101,15 +101,16 @@ fn symmetric(
 
 /// The points at these nodes have nothing across axis `c`, if their normal has no more than `most`.
 fn cross_out(interface: &mut InterfaceDefinition, c: usize, on: &[bool], most: f64) {
-    let Some(mortar) = &mut interface.mortar else {
+    let mesh = interface.mesh_mut();
+    let Some(mortar) = &mut mesh.mortar else {
         return;
     };
     let level = |normal: &mut Vec3| {
         normal[c] = 0.0;
         *normal = normalize(*normal).unwrap_or(*normal);
     };
-    let mut marked = vec![false; interface.points.len()];
-    for (point, marked) in interface.points.iter_mut().zip(&mut marked) {
+    let mut marked = vec![false; mesh.points.len()];
+    for (point, marked) in mesh.points.iter_mut().zip(&mut marked) {
         *marked = point.node().is_some_and(|n| on[n]) && point.normal[c].abs() <= most;
         if *marked {
             point.across.0[c] = true;

@@ -33,7 +33,10 @@ use crate::body::loads::{Action, Domain, Load, LoadKind, Pressing, Region, Sprin
 use crate::contact::interface::{Interface, InterfaceDefinition};
 use crate::error::{Diagnostic, Error};
 use crate::mesh::FacetRef;
-use crate::model::{Body, Contact, Heat, Model, OutputPlan, Prescribed, Probe, Setup, Support};
+use crate::model::{
+    Actions, Body, Contact, Heat, Model, OutputPlan, Prescribed, Probe, ReportPlan, Setup,
+    SolutionPlan, Support,
+};
 use crate::newton::Settings;
 use crate::system::{Dofs, Links, Motion};
 pub use meshes::Meshes;
@@ -243,41 +246,47 @@ impl Problem {
             corotations: Arc::new(corotations),
             bodies,
             references,
-            loads,
-            heat,
-            springs,
-            masses,
-            supports,
-            initials,
+            actions: Actions {
+                loads,
+                heat,
+                springs,
+                masses,
+                supports,
+                initials,
+            },
             steps,
-            probes,
-            output: OutputPlan {
-                every: self.output.every,
-                times: self.output.times.clone(),
-                frd: self.output.frd.encoding(),
-                history_every: self.output.history_every,
-                fatigue: fatigue.map_or(Vec::new(), |f| f.criteria.clone()),
-                fatigue_depth: fatigue.and_then(|f| f.depth),
-                checkpoint: (
-                    self.output.checkpoint.increments,
-                    60.0 * self.output.checkpoint.minutes,
-                ),
+            reports: ReportPlan {
+                probes,
+                output: OutputPlan {
+                    every: self.output.every,
+                    times: self.output.times.clone(),
+                    frd: self.output.frd.encoding(),
+                    history_every: self.output.history_every,
+                    fatigue: fatigue.map_or(Vec::new(), |f| f.criteria.clone()),
+                    fatigue_depth: fatigue.and_then(|f| f.depth),
+                    checkpoint: (
+                        self.output.checkpoint.increments,
+                        60.0 * self.output.checkpoint.minutes,
+                    ),
+                },
+                quality: self.quality,
             },
-            settings: Settings {
-                tolerance: self.solver.tolerance,
-                max_iterations: self.solver.max_iterations,
-                line_search: self.solver.line_search,
-                krylov_patience: self.solver.linear.patience,
-                linear_tolerance: self.solver.linear.tolerance,
+            solution: SolutionPlan {
+                settings: Settings {
+                    tolerance: self.solver.tolerance,
+                    max_iterations: self.solver.max_iterations,
+                    line_search: self.solver.line_search,
+                    krylov_patience: self.solver.linear.patience,
+                    linear_tolerance: self.solver.linear.tolerance,
+                },
+                method: self.solver.method,
+                engine: self.solver.engine.clone(),
+                energy_limit: self.solver.energy_limit,
+                follow: self.solver.follow_loose_bodies,
+                largest_change: self.solver.largest_change.unwrap_or(f64::INFINITY),
             },
-            method: self.solver.method,
-            engine: self.solver.engine.clone(),
-            energy_limit: self.solver.energy_limit,
-            follow: self.solver.follow_loose_bodies,
             unused: unused::tables(self),
             waves: relief::waves(self),
-            quality: self.quality,
-            largest_change: self.solver.largest_change.unwrap_or(f64::INFINITY),
             mesh,
         };
         Ok(Setup {

@@ -43,7 +43,7 @@ pub(super) fn apply(
                 Diagnostic::new(key, message).help(help),
             ]));
         }
-        interface.relief = found.into_iter().flatten().collect();
+        interface.mesh_mut().relief = found.into_iter().flatten().collect();
         notes.push(note(interface));
         if let Some(measured) = &relief.measured {
             notes.push(figures(&interface.name, measured));

@@ -79,7 +79,7 @@ pub(super) fn attach(
             return Err(problem_error(vec![finding]));
         }
         // A plane in which supports hold points goes with them.
-        for point in &mut interface.points {
+        for point in &mut interface.mesh_mut().points {
             point.across = Default::default();
         }
         interface.frames = Arc::clone(frames);

@@ -38,6 +38,7 @@ impl Solver {
             diagonal,
             condenser,
             floating,
+            conditions,
             ..
         } = self;
         let condensed =
@@ -58,7 +59,7 @@ impl Solver {
         } = condensed;
         let contacts: &ContactMemory = ahead.as_ref().unwrap_or(&frame.contacts);
         let load = patterns.load(&amplitudes, condensation.size());
-        newton.statistics.seconds_solve += started.elapsed().as_secs_f64();
+        newton.statistics.seconds.solve += started.elapsed().as_secs_f64();
         let scale = external.iter().map(|e| e * e).sum::<f64>().sqrt();
         let mut at = State {
             t: trial.to,
@@ -78,7 +79,7 @@ impl Solver {
         let mut bulk =
             CondensedBulk::new(condensation, reduced, diagonal, load, base, guess, scale);
         let fixed = constraints.fixed.clone();
-        let mut forces = contact.forces(contacts);
+        let mut forces = contact.forces(contacts, conditions);
         let converged = Iteration {
             newton,
             seen,
@@ -93,7 +94,7 @@ impl Solver {
         let converged = converged?;
         let dofs = condensation.dofs.iter();
         check_change(model, dofs.map(|&d| (at.u[d], from.u[d])))?;
-        check_candidates(contact)?;
+        check_candidates(contact, conditions)?;
         check_way(model, contact.views_of(contacts), [from, &at], &fixed)?;
         Ok(Accepted {
             contact: converged.contact.clone(),
@@ -159,7 +160,7 @@ impl Solver {
         for (internal, found) in internal.into_iter().zip(self.stiffness.mul_all(&states)) {
             *internal = Some(found);
         }
-        self.newton.statistics.seconds_recover += started.elapsed().as_secs_f64();
+        self.newton.statistics.seconds.recover += started.elapsed().as_secs_f64();
     }
 
     /// Completes a recovered increment by its forces, and checks that they balance.
@@ -201,15 +202,15 @@ impl Solver {
             others: squares(&accepted.external),
         };
         let largest = &mut self.condenser.largest_forces;
-        recovered.check(model.settings.tolerance, largest)?;
-        for (interface, view) in contact.interfaces.iter().zip(contact.views_of(after)) {
-            let overlooked = look::overlooked(view, &interface.conditions, u, t);
+        recovered.check(model.solution.settings.tolerance, largest)?;
+        for (conditions, view) in self.conditions.iter().zip(contact.views_of(after)) {
+            let overlooked = look::overlooked(view, conditions, u, t);
             if overlooked > 0 {
                 return Err(StepFailure::new(
                     Cause::Reach,
                     format!(
                         "interface {}: {overlooked} points penetrate that were not expected to be touched",
-                        interface.name
+                        view.name
                     ),
                 )
                 .help("set `solver.method = \"sparse\"`, or take smaller increments"));
@@ -222,7 +223,7 @@ impl Solver {
             ..Flow::default()
         };
         accepted.forces = forces;
-        self.newton.statistics.seconds_recover += started.elapsed().as_secs_f64();
+        self.newton.statistics.seconds.recover += started.elapsed().as_secs_f64();
         Ok(())
     }
 }

@@ -20,7 +20,7 @@ const SAMPLES: usize = 16;
 impl Solver {
     /// Points that may come into contact in this step, as far as can be told; never fewer than before. Those that may not are
     /// not looked at.
-    pub fn choose_candidates(&mut self, model: &Model, frame: &Frame, contact: &mut Contact) {
+    pub fn choose_candidates(&mut self, model: &Model, frame: &Frame, contact: &Contact) {
         if !self.method.condenses() {
             self.log.method = self.method.key();
         }
@@ -34,8 +34,8 @@ impl Solver {
         let count = all.iter().filter(|a| **a).count();
         let widened = self.condenser.widened;
         if count < FEW || widened >= MOST_WIDENED || !self.method.condenses() {
-            for interface in &mut contact.interfaces {
-                include_all(interface, &mut kept);
+            for (interface, conditions) in contact.interfaces.iter().zip(&mut self.conditions) {
+                conditions.candidates = include_all(interface, &mut kept);
             }
         } else {
             let step = &model.steps[frame.step];
@@ -46,15 +46,13 @@ impl Solver {
                 span: [step.start, step.end],
             };
             let turns = |node: &usize| model.corotations.of_point(*node).is_some();
-            let histories = &frame.contacts.interfaces;
-            for (interface, history) in contact.interfaces.iter_mut().zip(histories) {
-                match interface.nodes.iter().any(turns) {
+            let u = &frame.state.u;
+            for (interface, conditions) in contact.views(frame).zip(&mut self.conditions) {
+                conditions.candidates = match interface.nodes.iter().any(turns) {
                     // In turn all of its points come round.
-                    true => include_all(interface, &mut kept),
-                    false => {
-                        restrict_to_candidates(interface, history, &frame.state.u, range, &mut kept)
-                    }
-                }
+                    true => include_all(interface.definition, &mut kept),
+                    false => restrict_to_candidates(interface, u, range, &mut kept),
+                };
             }
         }
         for point in self.floating.points() {
@@ -74,21 +72,21 @@ impl Solver {
     }
 
     /// Lets all points take part.
-    pub fn include_all(&mut self, model: &Model, contact: &mut Contact) {
+    pub fn include_all(&mut self, model: &Model, contact: &Contact) {
         let mut kept = vec![false; model.dofs.points];
-        for interface in &mut contact.interfaces {
-            include_all(interface, &mut kept);
+        for (interface, conditions) in contact.interfaces.iter().zip(&mut self.conditions) {
+            conditions.candidates = include_all(interface, &mut kept);
         }
         self.condenser.kept = None;
         self.log.method = "explicit";
-        if model.engine.as_dyn().condenses() {
+        if model.solution.engine.as_dyn().condenses() {
             let idle = "explicit steps factor nothing: the engine has nothing to do in them";
             self.log.notes.push(idle.into());
         }
     }
 
     /// Contact has come to points that do not take part: lets more of them.
-    pub fn widen(&mut self, model: &Model, frame: &Frame, contact: &mut Contact) {
+    pub fn widen(&mut self, model: &Model, frame: &Frame, contact: &Contact) {
         self.condenser.widened += 1;
         let count = |c: &Condenser| c.kept.iter().flatten().filter(|k| **k).count();
         let before = count(&self.condenser);

@@ -23,7 +23,7 @@ use crate::solve::work::Work;
 
 impl Solver {
     /// Makes the bodies ready for a quasi-static step.
-    pub fn condense(&mut self, model: &Model, frame: &Frame, contact: &mut Contact) {
+    pub fn condense(&mut self, model: &Model, frame: &Frame, contact: &Contact) {
         // What turns freely would change the load patterns of all interiors in every pass; what turns cell by cell is not linear.
         let turns = model.turns_freely() || model.is_corotational();
         if !self.method.condenses() || turns {
@@ -79,7 +79,7 @@ impl Solver {
         &mut self,
         model: &Model,
         frame: &Frame,
-        contact: &mut Contact,
+        contact: &Contact,
         held: &[bool],
         which: Which,
     ) -> Option<Condensation> {
@@ -94,7 +94,7 @@ impl Solver {
         let library = Arc::clone(&self.condenser.library);
         let kept = self.condenser.kept.clone().unwrap_or_default();
         let parts = parts(model);
-        let engine = match library.engine(&model.engine) {
+        let engine = match library.engine(&model.solution.engine) {
             Ok(engine) => engine,
             Err(e) => return self.not_factored(model, frame, contact, e),
         };
@@ -153,7 +153,7 @@ impl Solver {
     /// Chooses the cheapest way to solve, and says why; whether it is to condense.
     fn decide(&mut self, scene: Scene, plan: &Plan, held: &[bool], which: Which) -> bool {
         let cost = plan.cost();
-        if scene.model.engine.as_dyn().condenses() {
+        if scene.model.solution.engine.as_dyn().condenses() {
             self.log.reason = format!(
                 "as the engine does; {} of {} dofs are contact candidates",
                 cost.candidates,
@@ -204,27 +204,27 @@ impl Solver {
         let statistics = &mut self.newton.statistics;
         // Some engines know only afterwards.
         let known = cost.nonzeros.max(effort.factor.nonzeros);
-        statistics.factor_nonzeros = known as usize;
-        statistics.factor_bytes = cost.bytes;
+        statistics.factors.nonzeros = known as usize;
+        statistics.factors.bytes = cost.bytes;
         if effort.made > 0 {
             // Some engines know only afterwards.
-            statistics.flops += cost.left.max(effort.factor.flops);
+            statistics.factors.flops += cost.left.max(effort.factor.flops);
         }
         statistics.analyses += effort.analysed;
         statistics.factorisations += effort.made;
-        statistics.substructures_made += effort.made;
-        statistics.substructures_shared += effort.shared;
-        statistics.substructures_read += effort.read;
-        statistics.seconds_find += effort.seconds_find + effort.seconds_wait;
-        statistics.seconds_order += effort.seconds_order;
+        statistics.substructures.made += effort.made;
+        statistics.substructures.shared += effort.shared;
+        statistics.substructures.read += effort.read;
+        statistics.seconds.find += effort.seconds_find + effort.seconds_wait;
+        statistics.seconds.order += effort.seconds_order;
         // Bodies are factored side by side: their times are shares of the time that has passed.
         let passed = (passed - effort.seconds_wait).max(0.0);
         let spent = effort.seconds.factor + effort.seconds.condense;
         let share = if spent > 0.0 { passed / spent } else { 0.0 };
         let factor = share * effort.seconds.factor;
         let condense = share * effort.seconds.condense;
-        statistics.seconds_factor += factor;
-        statistics.seconds_condense += condense;
+        statistics.seconds.factor += factor;
+        statistics.seconds.condense += condense;
         if statistics.linear_solve == 0.0 && effort.made > 0 {
             // To factor the root costs a third of its inverse.
             statistics.linear_solve = effort.seconds_order + factor + condense / 3.0;
@@ -242,7 +242,7 @@ impl Solver {
         &mut self,
         model: &Model,
         frame: &Frame,
-        contact: &mut Contact,
+        contact: &Contact,
         why: &str,
     ) {
         self.condenser.moving.clear();
@@ -264,7 +264,7 @@ impl Solver {
         &mut self,
         model: &Model,
         frame: &Frame,
-        contact: &mut Contact,
+        contact: &Contact,
         error: LinearError,
     ) -> Option<Condensation> {
         match error {
@@ -281,10 +281,10 @@ impl Solver {
         &mut self,
         model: &Model,
         frame: &Frame,
-        contact: &mut Contact,
+        contact: &Contact,
         cost: &Cost,
     ) -> Option<Condensation> {
-        if !model.engine.as_dyn().condenses() {
+        if !model.solution.engine.as_dyn().condenses() {
             let why = "it would take more memory than is free";
             return self.not_condensed(model, frame, contact, why);
         }
@@ -311,11 +311,11 @@ impl Solver {
         &mut self,
         model: &Model,
         frame: &Frame,
-        contact: &mut Contact,
+        contact: &Contact,
         why: &str,
     ) -> Option<Condensation> {
         self.condenser.at_rest = None;
-        let by = match model.engine.as_dyn().condenses() {
+        let by = match model.solution.engine.as_dyn().condenses() {
             true => " (the sparse matrix is factored by the built-in engine, in this process)",
             false => "",
         };

@@ -25,7 +25,7 @@ impl Solver {
         &mut self,
         model: &Model,
         frame: &Frame,
-        contact: &mut Contact,
+        contact: &Contact,
         held: &[bool],
     ) -> bool {
         let (_, _, key) = in_motion(&self.inertia).matrix();
@@ -81,7 +81,7 @@ impl Solver {
         let started = Instant::now();
         let opposite: Vec<f64> = origin.forces.iter().map(|f| -f).collect();
         let (load, interior) = condensation.sweep(&opposite).map_err(describe)?;
-        newton.statistics.seconds_solve += started.elapsed().as_secs_f64();
+        newton.statistics.seconds.solve += started.elapsed().as_secs_f64();
         let base = condensation.gather(&origin.at);
         let still = vec![0.0; base.len()];
         let mut bulk = CondensedBulk::new(
@@ -94,7 +94,7 @@ impl Solver {
             origin.scale,
         );
         let fixed = task.constraints.fixed.clone();
-        let mut forces = contact.forces(task.contacts);
+        let mut forces = contact.forces(task.contacts, &self.conditions);
         let converged = Iteration {
             newton,
             seen: &mut self.seen,
@@ -118,7 +118,7 @@ impl Solver {
                 at.u[i] = origin.at[i] + moved[i];
             }
         }
-        self.newton.statistics.seconds_recover += started.elapsed().as_secs_f64();
+        self.newton.statistics.seconds.recover += started.elapsed().as_secs_f64();
         Ok(converged)
     }
 
@@ -140,6 +140,6 @@ impl Solver {
             others: scale * scale,
         };
         let largest = &mut self.condenser.largest_forces;
-        recovered.check(model.settings.tolerance, largest)
+        recovered.check(model.solution.settings.tolerance, largest)
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use stickslip::assess::doctor::DoctorCause;
-use stickslip::contact::interface::set_user_laws;
+use stickslip::contact::interface::with_user_laws;
 use stickslip::contact::law::user::{LimitFunction, PressureFunction};
 use stickslip::model::Contact;
 
@@ -36,11 +36,17 @@ fn named(name: &str, prepare: &dyn Fn(&mut Contact)) {
 }
 
 fn limit(law: fn(f64) -> f64) -> impl Fn(&mut Contact) {
-    move |contact| set_user_laws(&mut contact.interfaces[0], None, Some(Arc::new(Each(law))))
+    move |contact| {
+        let interface = &mut contact.interfaces[0];
+        interface.definition = with_user_laws(interface, None, Some(Arc::new(Each(law))));
+    }
 }
 
 fn pressure(law: fn(f64) -> f64) -> impl Fn(&mut Contact) {
-    move |contact| set_user_laws(&mut contact.interfaces[0], Some(Arc::new(Each(law))), None)
+    move |contact| {
+        let interface = &mut contact.interfaces[0];
+        interface.definition = with_user_laws(interface, Some(Arc::new(Each(law))), None);
+    }
 }
 
 #[test]
@@ -55,11 +61,9 @@ fn functions_that_are_no_laws_are_named() {
 fn functions_that_are_laws_raise_no_alarm() {
     let sound = |contact: &mut Contact| {
         let normal = Arc::new(Each(|g| 1e14 * (-g).max(0.0)));
-        set_user_laws(
-            &mut contact.interfaces[0],
-            Some(normal),
-            Some(Arc::new(Each(|p| 0.3 * p))),
-        );
+        let interface = &mut contact.interfaces[0];
+        interface.definition =
+            with_user_laws(interface, Some(normal), Some(Arc::new(Each(|p| 0.3 * p))));
     };
     let said = examined(COMPLIANT, &folder("functions", &[]), &sound).expect("a sound model");
     assert!(

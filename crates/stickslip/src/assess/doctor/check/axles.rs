@@ -66,7 +66,7 @@ fn far(scene: &Scene, reference: &Reference) -> Option<Finding> {
 /// Rotations of a whole number of radians beyond a turn: of a turn in radians the number has no end.
 fn degrees(model: &Model) -> Vec<Finding> {
     let mut out = Vec::new();
-    for support in &model.supports {
+    for support in &model.actions.supports {
         let mut largest: Option<(f64, &str)> = None;
         for e in support.entries.iter().filter(|e| !e.hold) {
             let (point, _) = model.dofs.locate(e.dof);

@@ -64,7 +64,7 @@ pub(super) fn travel(scene: &Scene) -> f64 {
     use crate::contact::interface::Primary;
     let times = times(model);
     let mut largest = 0.0_f64;
-    for support in &model.supports {
+    for support in &model.actions.supports {
         let value = support.entries.iter().filter(|e| !e.hold);
         let value = value.fold(0.0_f64, |m, e| m.max(e.value.abs()));
         for &t in &times {
@@ -95,7 +95,7 @@ pub(super) fn travel(scene: &Scene) -> f64 {
             largest = largest.max((value * coupling.schedule.at(t)).abs());
         }
     }
-    for initial in &model.initials {
+    for initial in &model.actions.initials {
         let all = initial.displacements.iter();
         largest = all.fold(largest, |m, (_, u)| m.max(u.abs()));
     }
@@ -125,7 +125,7 @@ pub(super) fn forced_by_loads(scene: &Scene) -> bool {
     if couplings.into_iter().any(|c| draws(&c.tie)) || model.is_heated() {
         return true;
     }
-    model.loads.iter().any(|l| {
+    model.actions.loads.iter().any(|l| {
         let any = l.entries.iter().any(|(_, f)| *f != 0.0);
         any && times(model).iter().any(|&t| l.schedule.at(t) != 0.0)
     })

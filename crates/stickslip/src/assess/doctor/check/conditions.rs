@@ -27,7 +27,7 @@ pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
         && !forced(view)
         && !belts
         && !overlaps
-        && model.initials.is_empty()
+        && model.actions.initials.is_empty()
     {
         out.push(
             Finding::new(
@@ -48,7 +48,11 @@ fn inert(model: &Model) -> Vec<Finding> {
         let mut bodies = model.elastic().filter(|b| b.points.contains(p));
         bodies.any(|b| b.elastic.parts().iter().any(|part| part.dilation.is_some()))
     };
-    let fields = model.heat.iter().flat_map(|h| &h.temperatures.fields);
+    let fields = model
+        .actions
+        .heat
+        .iter()
+        .flat_map(|h| &h.temperatures.fields);
     let idle = fields.filter(|f| !f.entries.iter().any(|(p, _)| expands(p)));
     let finding = |name: &String| {
         let message =
@@ -66,7 +70,7 @@ fn contradictions(model: &Model) -> Vec<Finding> {
     // In between, supports start from where they find the points; at the end of a step they are where they should be.
     for t in model.steps.iter().map(|step| step.end) {
         let mut first: BTreeMap<usize, (usize, f64)> = BTreeMap::new();
-        for (k, support) in model.supports.iter().enumerate() {
+        for (k, support) in model.actions.supports.iter().enumerate() {
             if !support.schedule.active(t) {
                 continue;
             }
@@ -94,7 +98,10 @@ fn contradiction(
     entry: &Prescribed,
     t: f64,
 ) -> Finding {
-    let (first, second) = (&model.supports[a].name, &model.supports[b].name);
+    let (first, second) = (
+        &model.actions.supports[a].name,
+        &model.actions.supports[b].name,
+    );
     let (point, component) = model.dofs.locate(entry.dof);
     let direction = ["x", "y", "z"][component];
     let mut finding = Finding::new(

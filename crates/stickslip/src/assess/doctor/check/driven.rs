@@ -35,7 +35,12 @@ pub(super) fn owners(model: &Model) -> Vec<usize> {
 /// Displacements that supports prescribe at time `t`, by body and component.
 pub(super) fn prescribed(model: &Model, owners: &[usize], t: f64) -> Vec<[Component; 3]> {
     let mut all: Vec<[Vec<f64>; 3]> = vec![Default::default(); model.bodies.len()];
-    for support in model.supports.iter().filter(|s| s.schedule.active(t)) {
+    for support in model
+        .actions
+        .supports
+        .iter()
+        .filter(|s| s.schedule.active(t))
+    {
         let factor = support.schedule.at(t);
         for e in &support.entries {
             let (point, c) = model.dofs.locate(e.dof);
@@ -78,7 +83,7 @@ pub(super) fn pair(model: &Model, interface: &InterfaceDefinition) -> [Option<us
 /// The mean initial velocity of a body `[m/s]`, zero if it has none, and when it begins.
 pub(super) fn thrown(model: &Model, body: &Body) -> Option<(Vec3, f64)> {
     let (mut sum, mut count, mut from) = ([0.0; 3], [0_usize; 3], f64::INFINITY);
-    for initial in &model.initials {
+    for initial in &model.actions.initials {
         for &(dof, v) in &initial.velocities {
             let (point, c) = model.dofs.locate(dof);
             if body.points.contains(&point) {
@@ -180,7 +185,7 @@ pub(super) fn meets_others(scene: &Scene, interface: &InterfaceDefinition, body:
 pub(super) fn flight(model: &Model) -> f64 {
     let mut farthest = 0.0_f64;
     let end = model.steps.last().map_or(0.0, |s| s.end);
-    for initial in &model.initials {
+    for initial in &model.actions.initials {
         let time = end - model.steps[initial.step].start;
         let mut speeds: std::collections::BTreeMap<usize, f64> = Default::default();
         for &(dof, v) in &initial.velocities {

@@ -129,7 +129,7 @@ pub(super) fn pressureless(
     let model = view.model;
     let closed = measured.gaps.iter().zip(&interface.points);
     let overlaps = closed.into_iter().any(|(g, p)| *g < -1e-6 * p.size);
-    if forced(view) || overlaps || !model.initials.is_empty() {
+    if forced(view) || overlaps || !model.actions.initials.is_empty() {
         return None;
     }
     let nearest = measured.gaps.iter().enumerate();

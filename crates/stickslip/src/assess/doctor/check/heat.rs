@@ -18,7 +18,7 @@ pub(super) fn check(model: &Model) -> Vec<Finding> {
 
 /// Bodies that temperatures strain too much.
 pub(super) fn strained(model: &Model) -> Vec<Finding> {
-    let Some(heat) = &model.heat else {
+    let Some(heat) = &model.actions.heat else {
         return Vec::new();
     };
     let temperatures = &heat.temperatures;
@@ -63,7 +63,7 @@ pub(super) fn strained(model: &Model) -> Vec<Finding> {
 
 /// Temperatures that are given while nobody has said how warm bodies are at the start.
 fn from_zero(model: &Model) -> Option<Finding> {
-    let heat = model.heat.as_ref()?;
+    let heat = model.actions.heat.as_ref()?;
     let temperatures = &heat.temperatures;
     if temperatures.said || temperatures.fields.is_empty() {
         return None;
@@ -89,7 +89,7 @@ fn from_zero(model: &Model) -> Option<Finding> {
 
 /// Temperatures that come or go at once, in a step in which bodies have inertia.
 fn jumps(model: &Model) -> Vec<Finding> {
-    let Some(heat) = &model.heat else {
+    let Some(heat) = &model.actions.heat else {
         return Vec::new();
     };
     let temperatures = &heat.temperatures;

@@ -102,8 +102,8 @@ pub(super) fn check(view: &View) -> Vec<Finding> {
 /// Whether any step leaves out what the one before had.
 fn dropped_any(model: &Model) -> bool {
     model.steps.windows(2).any(|w| {
-        let mut supports = model.supports.iter().map(|s| &s.schedule);
-        let mut loads = model.loads.iter().map(|l| &l.schedule);
+        let mut supports = model.actions.supports.iter().map(|s| &s.schedule);
+        let mut loads = model.actions.loads.iter().map(|l| &l.schedule);
         supports.any(|s| s.active(w[0].end) && !s.active(w[1].end))
             || loads.any(|l| left_out(l, &w[0], &w[1]))
     })
@@ -160,7 +160,7 @@ fn bodies(model: &Model, dofs: impl Iterator<Item = usize>) -> BTreeSet<usize> {
 }
 
 fn supports<'a>(model: &'a Model, before: &Step, step: &Step) -> Vec<Dropped<'a>> {
-    let gone = model.supports.iter();
+    let gone = model.actions.supports.iter();
     let gone = gone.filter(|s| s.schedule.active(before.end) && !s.schedule.active(step.end));
     gone.flat_map(|s| {
         let held = bodies(model, s.entries.iter().map(|e| e.dof));
@@ -174,7 +174,7 @@ fn supports<'a>(model: &'a Model, before: &Step, step: &Step) -> Vec<Dropped<'a>
 }
 
 fn loads<'a>(model: &'a Model, before: &Step, step: &Step) -> Vec<Dropped<'a>> {
-    let gone = model.loads.iter();
+    let gone = model.actions.loads.iter();
     let gone = gone.filter(|l| left_out(&l.schedule, before, step));
     gone.flat_map(|l| {
         let pressed = l.entries.iter().filter(|e| e.1 != 0.0);
@@ -190,7 +190,11 @@ fn loads<'a>(model: &'a Model, before: &Step, step: &Step) -> Vec<Dropped<'a>> {
 
 /// Whether a load acts on a body at the end of a step.
 fn loaded(model: &Model, body: usize, step: &Step) -> bool {
-    let acting = model.loads.iter().filter(|l| acts(&l.schedule, step));
+    let acting = model
+        .actions
+        .loads
+        .iter()
+        .filter(|l| acts(&l.schedule, step));
     let mut dofs = acting.flat_map(|l| l.entries.iter().filter(|e| e.1 != 0.0).map(|e| e.0));
     let points = &model.bodies[body];
     let hidden = points.rigid.map(|r| model.links.all()[r.link].hidden);

@@ -29,7 +29,7 @@ struct Acting<'a> {
 fn all<'a>(scene: &Scene<'a>) -> Vec<Acting<'a>> {
     let model = scene.model;
     let mut all = Vec::new();
-    for load in &model.loads {
+    for load in &model.actions.loads {
         all.push(Acting {
             what: "load",
             name: &load.name,
@@ -38,7 +38,7 @@ fn all<'a>(scene: &Scene<'a>) -> Vec<Acting<'a>> {
             scaled: true,
         });
     }
-    for support in &model.supports {
+    for support in &model.actions.supports {
         all.push(Acting {
             what: "support",
             name: &support.name,
@@ -47,7 +47,12 @@ fn all<'a>(scene: &Scene<'a>) -> Vec<Acting<'a>> {
             scaled: true,
         });
     }
-    for field in model.heat.iter().flat_map(|h| &h.temperatures.fields) {
+    for field in model
+        .actions
+        .heat
+        .iter()
+        .flat_map(|h| &h.temperatures.fields)
+    {
         all.push(Acting {
             what: "temperature",
             name: &field.name,

@@ -55,12 +55,12 @@ pub(super) fn fast(scene: &Scene) -> Vec<Finding> {
             );
         }
     };
-    for initial in &model.initials {
+    for initial in &model.actions.initials {
         let fastest = initial.velocities.iter();
         let fastest = fastest.fold(0.0_f64, |m, (_, v)| m.max(v.abs()));
         judge("initial", &initial.name, fastest);
     }
-    for support in &model.supports {
+    for support in &model.actions.supports {
         let value = support.entries.iter().filter(|e| !e.hold);
         let value = value.fold(0.0_f64, |m, e| m.max(e.value.abs()));
         let rate = rates(
@@ -135,7 +135,11 @@ pub(super) fn apart(
     let gaps = measured.gaps.iter().enumerate().filter(|g| g.1.is_finite());
     let (i, &gap) = gaps.min_by(|a, b| a.1.total_cmp(b.1))?;
     let size = interface.points[i].size;
-    let given = model.initials.iter().any(|i| !i.displacements.is_empty());
+    let given = model
+        .actions
+        .initials
+        .iter()
+        .any(|i| !i.displacements.is_empty());
     if gap < -APART * size || given || forced_by_loads(scene) {
         return None;
     }

@@ -32,7 +32,7 @@ pub(super) fn check(model: &Model) -> Vec<Finding> {
 fn pulled(model: &Model, body: &Body) -> Option<Finding> {
     // Points, component and displacement at factor one of each support of the body.
     let mut held: Vec<(usize, usize, f64, Vec<usize>)> = Vec::new();
-    for (k, support) in model.supports.iter().enumerate() {
+    for (k, support) in model.actions.supports.iter().enumerate() {
         for c in 0..model.dofs.dim {
             let entries = support.entries.iter().filter(|e| {
                 let (point, component) = model.dofs.locate(e.dof);
@@ -53,7 +53,7 @@ fn pulled(model: &Model, body: &Body) -> Option<Finding> {
             }
             let length = apart(model, there, here);
             for t in super::common::times(model) {
-                let (s, r) = (&model.supports[*a], &model.supports[*b]);
+                let (s, r) = (&model.actions.supports[*a], &model.actions.supports[*b]);
                 if !(s.schedule.active(t) && r.schedule.active(t)) {
                     continue;
                 }
@@ -93,7 +93,7 @@ fn loaded(model: &Model, body: &Body) -> Option<Finding> {
         Space::Axisymmetric => std::f64::consts::PI * (high[0] * high[0] - low[0] * low[0]),
         Space::Solid => (0..3).filter(|&d| d != c).map(|d| extent[d]).product(),
     };
-    for load in &model.loads {
+    for load in &model.actions.loads {
         let times = super::common::times(model);
         let factor = times
             .iter()

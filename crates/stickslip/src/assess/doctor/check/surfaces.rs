@@ -79,7 +79,7 @@ pub(super) fn check(scene: &Scene, interface: &InterfaceDefinition) -> Vec<Findi
 /// A support that holds the surface itself along its normal, although the body behind it could move.
 fn held(model: &Model, interface: &InterfaceDefinition, surface: &Surface) -> Option<Finding> {
     let on: BTreeSet<usize> = surface.points.iter().map(|p| p.0).collect();
-    for support in &model.supports {
+    for support in &model.actions.supports {
         let mut held: BTreeSet<(usize, usize)> = BTreeSet::new();
         for e in &support.entries {
             held.insert(model.dofs.locate(e.dof));
@@ -169,7 +169,7 @@ fn stiffened(scene: &Scene, interface: &InterfaceDefinition, surface: &Surface) 
 /// A load that acts on the surface of contact and nowhere else.
 fn loaded(model: &Model, interface: &InterfaceDefinition, surface: &Surface) -> Option<Finding> {
     let on: BTreeSet<usize> = surface.points.iter().map(|p| p.0).collect();
-    for load in &model.loads {
+    for load in &model.actions.loads {
         let acted: BTreeSet<usize> = load
             .entries
             .iter()

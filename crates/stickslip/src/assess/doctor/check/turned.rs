@@ -26,7 +26,7 @@ struct Turn<'a> {
 
 /// One finding for each reference point or rigid body whose rotation is prescribed to go too far.
 pub(super) fn check(scene: &Scene, measured: &[Measured]) -> Vec<Finding> {
-    let limits = &scene.model.quality;
+    let limits = &scene.model.reports.quality;
     if limits.gate == GateMode::Off {
         return Vec::new();
     }
@@ -66,7 +66,12 @@ fn turns<'a>(scene: &Scene<'a>, t: f64) -> Vec<Turn<'a>> {
     let model = scene.model;
     let mut out: Vec<Turn> = Vec::new();
     let mut tied = None;
-    for support in model.supports.iter().filter(|s| s.schedule.active(t)) {
+    for support in model
+        .actions
+        .supports
+        .iter()
+        .filter(|s| s.schedule.active(t))
+    {
         let factor = support.schedule.at(t);
         for e in support.entries.iter().filter(|e| !e.hold) {
             let (point, c) = model.dofs.locate(e.dof);
@@ -194,7 +199,7 @@ fn finding(scene: &Scene, turn: &Turn, missed: Option<(&str, [f64; 2])>) -> Find
     let said = match missed {
         None => format!(
             "and small rotations go to {:.2} rad (`quality.rotation`): bodies grow by half the square of the angle, here by {:.1e}",
-            model.quality.rotation,
+            model.reports.quality.rotation,
             0.5 * angle * angle
         ),
         Some((interface, [missed, room])) => format!(

@@ -33,7 +33,7 @@ pub(super) fn check(view: &View, interface: &InterfaceDefinition) -> Option<Find
                 .clone()
                 .flat_map(|p| (0..model.dofs.dim).map(move |c| model.dofs.of(p, c)))
         };
-        let sprung = model.springs.iter().flat_map(|s| s.entries());
+        let sprung = model.actions.springs.iter().flat_map(|s| s.entries());
         let sprung = sprung.into_iter().any(|(d, _)| dofs().any(|own| own == *d));
         let led = model.references.iter().any(|r| r.body == Some(index));
         let guided = dofs().any(|d| held[d]) || sprung || led || owner.rigid.is_some();

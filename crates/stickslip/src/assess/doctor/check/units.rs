@@ -87,7 +87,7 @@ pub(super) fn impossible(model: &Model, moving: bool) -> Vec<Finding> {
 
 /// Whether a load acts on all points of a body, as weight does.
 fn weighs(model: &Model, body: &Body) -> bool {
-    model.loads.iter().any(|load| {
+    model.actions.loads.iter().any(|load| {
         let points = load
             .entries
             .iter()

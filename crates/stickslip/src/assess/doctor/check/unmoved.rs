@@ -8,7 +8,7 @@ use crate::solve::inertia::light;
 
 pub(super) fn check(scene: &Scene) -> Vec<Finding> {
     let model = scene.model;
-    let all = model.initials.iter();
+    let all = model.actions.initials.iter();
     all.filter_map(|initial| massless(scene, initial)).collect()
 }
 

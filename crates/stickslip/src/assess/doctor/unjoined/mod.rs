@@ -314,7 +314,7 @@ fn prescribed(model: &Model, body: usize, t: f64) -> Option<Vec3> {
         .map(|r| model.links.all()[r.link].motions(model.dofs));
     let mut by: [Option<f64>; 3] = [None; 3];
     let acting = |s: &&Support| s.schedule.active(t);
-    for support in model.supports.iter().filter(acting) {
+    for support in model.actions.supports.iter().filter(acting) {
         for e in &support.entries {
             let value = match e.hold {
                 true => 0.0,
