@@ -218,12 +218,13 @@ fn one(
         rows.push((state.t, parts, borne));
     }
     for (t, [external, contact, reaction, far], borne) in rows {
-        let released = released(results, t);
-        let rest = |k: usize| norm(add(add(external[k], contact[k]), reaction[k]));
-        if !released {
-            report.note("body-balance", name, rest(0) / largest, t);
-            report.note("body-moment", name, rest(1) / (largest * size), t);
+        // What is left of the reaction of a support that has let go is in no column.
+        if released(results, t) {
+            continue;
         }
+        let rest = |k: usize| norm(add(add(external[k], contact[k]), reaction[k]));
+        report.note("body-balance", name, rest(0) / largest, t);
+        report.note("body-moment", name, rest(1) / (largest * size), t);
         let given = norm(external[0]).max(norm(far[0]));
         let carried = norm(contact[0]);
         // Where nothing else acts, and no support is near, contact forces cancel: that is the balance. What is left of forces that nearly cancel, as those of two
@@ -245,7 +246,7 @@ pub fn supported(case: &Case, mesh: &Mesh, points: &BTreeSet<usize>) -> bool {
     sets.any(|set| set.iter().any(|p| points.contains(p)))
 }
 
-/// Whether a support has let go in the step of a time: what is left of its reaction is no column then.
+/// Whether a support has let go in the step of a time.
 fn released(results: &Results, t: f64) -> bool {
     let steps = &results.case.steps;
     let step = results.case.step_at(t);
