@@ -218,7 +218,7 @@ fn one(
         rows.push((state.t, parts, borne));
     }
     for (t, [external, contact, reaction, far], borne) in rows {
-        // What is left of the reaction of a support that has let go is in no column.
+        // The reaction of a support that is released fades over the step, and no column of the results holds it.
         if released(results, t) {
             continue;
         }
@@ -246,7 +246,7 @@ pub fn supported(case: &Case, mesh: &Mesh, points: &BTreeSet<usize>) -> bool {
     sets.any(|set| set.iter().any(|p| points.contains(p)))
 }
 
-/// Whether a support has let go in the step of a time.
+/// Whether a support was released at the start of the step of a time.
 fn released(results: &Results, t: f64) -> bool {
     let steps = &results.case.steps;
     let step = results.case.step_at(t);

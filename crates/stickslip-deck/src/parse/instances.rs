@@ -71,7 +71,7 @@ impl Reader<'_> {
             && self.deck.numbering.instances().is_empty()
         {
             // Nothing is in the model; what has been said may be why.
-            self.structure.hollow = true;
+            self.structure.incomplete = true;
             if self.sound() {
                 self.error(
                     *place,
@@ -334,7 +334,7 @@ impl Reader<'_> {
         let Some(part) = exact.or_else(alike).and_then(|n| parts.get_mut(&n)) else {
             let known: Vec<&String> = self.structure.parts.keys().collect();
             let help = nearest(name, "parts", &known);
-            self.structure.hollow = true;
+            self.structure.incomplete = true;
             self.error(place, format!("there is no part {}", clip(name)), &help);
             return;
         };
@@ -347,7 +347,7 @@ impl Reader<'_> {
             .map(|i| 1 + source.cards[*i].data.len())
             .sum::<usize>();
         if self.structure.lines > MOST_LINES {
-            self.structure.hollow = true;
+            self.structure.incomplete = true;
             self.error(
                 place,
                 format!("the instances have more than {MOST_LINES} lines"),

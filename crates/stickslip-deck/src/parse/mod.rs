@@ -82,7 +82,7 @@ impl Reader<'_> {
         if !self.messages.stopped {
             self.close_all();
         }
-        if self.messages.stopped || self.structure.hollow {
+        if self.messages.stopped || self.structure.incomplete {
             return Err(DeckError {
                 findings: self.verdict(),
             });
@@ -153,7 +153,7 @@ impl Reader<'_> {
         if !self.in_its_place(card) {
             return;
         }
-        if self.structure.hollow && !structure::STRUCTURE.contains(&card.keyword.as_str()) {
+        if self.structure.incomplete && !structure::STRUCTURE.contains(&card.keyword.as_str()) {
             return;
         }
         if !cards::BENEATH.contains(&card.keyword.as_str()) {

@@ -51,7 +51,7 @@ pub(super) struct Structure {
     /// The card above stands where it must not, and what belongs to it with it.
     pub misplaced: bool,
     /// An instance lacks its mesh: what refers to it means nothing.
-    pub hollow: bool,
+    pub incomplete: bool,
 }
 
 /// Where in a deck a card can stand.

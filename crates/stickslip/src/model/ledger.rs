@@ -62,7 +62,7 @@ pub struct EnergyLedger {
     pub(crate) entered: Entered,
     /// Energy brought in by initial velocities and displacements.
     pub initial: f64,
-    /// What is left of the balance: supplied less stored and dissipated.
+    /// Residual of the balance: energy supplied less energy stored and dissipated.
     pub residual: f64,
 }
 

@@ -410,15 +410,15 @@ fn a_motion_that_begins_along_a_mode_has_its_eigenvalue() {
         simulation
     };
     let fastest = run("amplitude = 1e-4");
-    let [told] = &fastest.summary.vibrations.growth[..] else {
+    let [growing] = &fastest.summary.vibrations.growth[..] else {
         panic!("{:?}", fastest.summary.vibrations.growth);
     };
-    near(told.growth, 0.407292624, 1e-8);
-    near(told.measured_growth, 0.407292624, 1e-3 * 0.4);
-    near(told.measured_frequency, 4.600639877 / TAU, 1e-4);
-    near(told.cycles, 8.0 * told.frequency, 1e-2);
-    let grown = told.amplitudes[1] / told.amplitudes[0];
-    near(grown / (8.0 * told.growth).exp(), 1.0, 5e-3);
+    near(growing.growth, 0.407292624, 1e-8);
+    near(growing.measured_growth, 0.407292624, 1e-3 * 0.4);
+    near(growing.measured_frequency, 4.600639877 / TAU, 1e-4);
+    near(growing.cycles, 8.0 * growing.frequency, 1e-2);
+    let grown = growing.amplitudes[1] / growing.amplitudes[0];
+    near(grown / (8.0 * growing.growth).exp(), 1.0, 5e-3);
     let last = &fastest.summary.last;
     assert!(last["MODE.REST"] < 1e-3, "{last:?}");
     // What the kick brought in is in the ledger, but for what it stored in the contact.
