@@ -155,6 +155,7 @@ fn interface(
             skin: Vec::new(),
             primary_nodes: 0,
             points,
+            alike: Vec::new(),
             mortar: None,
             hollows: Default::default(),
             walls: Default::default(),

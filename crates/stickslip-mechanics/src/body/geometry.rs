@@ -1,15 +1,21 @@
 //! Shape functions of a kind tabulated at its quadrature points, and their derivatives in a cell.
 
+use std::borrow::Cow;
+
 use super::scheme::stiffness_rule;
 use super::{Formulation, Space};
 use crate::math::{Mat3, Vec3, inverse};
 use crate::mesh::Block;
-use crate::shape::{ElementKind, QuadraturePoint};
+use crate::shape::{ElementKind, QuadraturePoint, mass_rule};
 use crate::system::Dofs;
 
-/// The rule for integrals over a cell whatever its formulation, and for the stiffness in the standard one.
-pub(super) fn cell_rule(kind: ElementKind, space: Space) -> &'static [QuadraturePoint] {
-    stiffness_rule(kind, space, Formulation::Standard)
+/// The rule for integrals over a cell whatever its formulation: that of the stiffness in the standard one, where it integrates shape functions exactly over an undistorted
+/// cell. The three points of tri6 do not around an axis: `N r` is cubic.
+pub(super) fn cell_rule(kind: ElementKind, space: Space) -> Cow<'static, [QuadraturePoint]> {
+    match (kind, space) {
+        (ElementKind::Tri6, Space::Axisymmetric) => Cow::Owned(mass_rule(kind)),
+        _ => Cow::Borrowed(stiffness_rule(kind, space, Formulation::Standard)),
+    }
 }
 
 /// Shape functions and derivatives of one kind with `N` nodes at the points of its rule, component by component.
@@ -26,7 +32,7 @@ pub(super) struct Table<const N: usize> {
 impl<const N: usize> Table<N> {
     /// For a kind of `N` nodes.
     pub fn new(kind: ElementKind, space: Space) -> Self {
-        Self::with_rule(kind, cell_rule(kind, space))
+        Self::with_rule(kind, &cell_rule(kind, space))
     }
 
     /// For a kind of `N` nodes and any rule.

@@ -4,8 +4,9 @@ use rayon::prelude::*;
 
 use super::cell_frame::CellFrame;
 use super::geometry::gather;
-use super::geometry::{Nodal, Point, Table, by_nodes, cell_rule, coordinates, point};
-use super::{At, Elastic, Part};
+use super::geometry::{Nodal, Point, Table, by_nodes, coordinates, point};
+use super::scheme::stiffness_rule;
+use super::{At, Elastic, Formulation, Part};
 use crate::math::{Mat3, Vec3, identity, norm, polar_rotation};
 use crate::mesh::CellRef;
 use crate::shape::QuadraturePoint;
@@ -128,7 +129,7 @@ impl Elastic {
             weight: 1.0,
         }];
         let rule = match self.corotational {
-            true => cell_rule(block.kind, self.space),
+            true => stiffness_rule(block.kind, self.space, Formulation::Standard),
             false => &centre,
         };
         let table = Table::<N>::with_rule(block.kind, rule);

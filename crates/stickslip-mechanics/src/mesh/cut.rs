@@ -17,6 +17,9 @@ pub struct Cut {
     pub pairs: Vec<[usize; 2]>,
 }
 
+/// Distance of the centre of a cell from a plane, relative to how far centres lie apart across it, that is rounding.
+const ON_PLANE: f64 = 1e-9;
+
 impl Mesh {
     /// The faces between cells whose centres lie on different sides of a plane, as faces of the cells against the normal; of several parts that share no
     /// point the one nearest to `point`. Where faces lie on the plane these are they, elsewhere the layer of faces that is nearest.
@@ -31,24 +34,25 @@ impl Mesh {
     ) -> Result<Vec<FacetRef>, MeshError> {
         let of: BTreeSet<CellRef> = cells.iter().copied().collect();
         let height = |c: &CellRef| dot(sub(self.centre(self.cell_points(*c)), point), normal);
+        let heights = cells.iter().map(height);
+        let [low, high] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], h| {
+            [low.min(h), high.max(h)]
+        });
+        // Cells whose centres lie on the plane are below it, whatever rounding says: otherwise it would run over some of a row and under others.
+        let above = |facet: &FacetRef| height(&facet.cell) > ON_PLANE * (high - low);
         let mut found = Vec::new();
         for users in self.shared_faces().chunk_by(|a, b| a.0 == b.0) {
             let [(_, a), (_, b)] = users else { continue };
             if !of.contains(&a.cell) || !of.contains(&b.cell) {
                 continue;
             }
-            match (height(&a.cell) > 0.0, height(&b.cell) > 0.0) {
+            match (above(a), above(b)) {
                 (false, true) => found.push(*a),
                 (true, false) => found.push(*b),
                 _ => {}
             }
         }
         if found.is_empty() {
-            let heights = || cells.iter().map(height);
-            let (low, high) = (
-                heights().fold(f64::INFINITY, f64::min),
-                heights().fold(f64::NEG_INFINITY, f64::max),
-            );
             return Err(
                 MeshError::new("the plane does not run between cells").help(format!(
                     "along the normal the centres of cells lie from {low:.4e} to {high:.4e} of the point: move it between two layers of them"
@@ -261,6 +265,22 @@ mod tests {
 
     fn all(mesh: &Mesh) -> Vec<CellRef> {
         mesh.cells().collect()
+    }
+
+    #[test]
+    fn a_plane_through_centres_of_cells_runs_above_them() {
+        for off in [0.0, 1e-14, -1e-14] {
+            let mut mesh = grid();
+            // Centres are off by rounding, not all to one side.
+            for (i, x) in mesh.points.iter_mut().enumerate() {
+                x[0] += off * (i as f64).sin();
+            }
+            let faces = mesh.faces_along(&all(&mesh), [1.5, 0.0, 0.0], [1.0, 0.0, 0.0]);
+            let cut = mesh.cut(&faces.unwrap()).unwrap();
+            let on = |p: usize| (mesh.points[p][0] - 2.0).abs() < 1e-9;
+            assert_eq!(cut.pairs.len(), 3, "{off}");
+            assert!(cut.pairs.iter().all(|[p, _]| on(*p)), "{off}");
+        }
     }
 
     #[test]

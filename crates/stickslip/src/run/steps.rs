@@ -439,7 +439,7 @@ impl Simulation {
         observers: &mut [&mut dyn Observer],
     ) -> Result<(), Error> {
         let solver = &mut self.solver;
-        if solver.has_gaps_to_close(&self.model, &self.frame, &self.contact) {
+        if solver.has_gaps_to_close(&self.model, &self.frame, &self.contact, trial) {
             self.flush(observers)?;
             (self.solver).close_gaps(&self.model, &mut self.frame, &mut self.contact, trial);
             self.tell_notes(observers)?;

@@ -2,7 +2,7 @@
 
 use super::closure::{close, pushes};
 use super::floating_bodies::{Floating, Origin};
-use super::released::NO_LOAD;
+use super::released::no_load;
 use super::rigid_part::rigid_part;
 use super::solver::Solver;
 use super::work::Work;
@@ -81,8 +81,14 @@ impl Solver {
         });
     }
 
-    /// Whether floating bodies touch nothing yet and are to be moved until they do.
-    pub fn has_gaps_to_close(&mut self, model: &Model, frame: &Frame, contact: &Contact) -> bool {
+    /// Whether floating bodies touch nothing yet and are to be moved until they do. Where all loads have gone nothing would move them.
+    pub fn has_gaps_to_close(
+        &mut self,
+        model: &Model,
+        frame: &Frame,
+        contact: &Contact,
+        trial: Trial,
+    ) -> bool {
         self.find_floating_bodies(model, frame, contact);
         let floating = &self.floating;
         let bodies = floating.bodies();
@@ -95,7 +101,7 @@ impl Solver {
             let mut all = contact.views_of(contacts).filter(|i| !i.laws.tied);
             all.all(|i| !look::touched(i) || !i.nodes.iter().any(|&n| free.has(model, n)))
         };
-        bodies.iter().any(untouched)
+        bodies.iter().any(untouched) && !floating.lose_all_loads(model, frame, trial)
     }
 
     /// Moves floating bodies that touch nothing yet until they do, and anchors them.
@@ -200,7 +206,7 @@ impl Solver {
         let before = self.floating.pressed(model, &frame.contact).into_iter();
         let largest = before.chain(self.floating.pushed.iter().copied());
         let largest = largest.fold(0.0, f64::max);
-        if force <= NO_LOAD * largest {
+        if force <= no_load(model) * largest {
             // What is left of forces that are gone is small beside them.
             force = largest;
         }

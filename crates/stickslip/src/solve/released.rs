@@ -11,8 +11,10 @@ use crate::model::free_bodies::FreeBody;
 use crate::model::scene::Scene;
 use crate::time::Trial;
 
-/// Load along free motions, relative to the largest so far, that is none.
-pub(super) const NO_LOAD: f64 = 1e-9;
+/// Load, relative to the largest so far, that is none: what increments may leave unbalanced, as what is left of the reaction of a support that lets go.
+pub(super) fn no_load(model: &Model) -> f64 {
+    model.solution.settings.tolerance
+}
 
 /// Force of contact on a body, relative to the largest load so far, that does not press it. Anchors give up when they carry less.
 const NOT_PRESSED: f64 = 1e-6;
@@ -53,12 +55,31 @@ impl Floating {
 
     /// Whether the load of a floating body that had one is gone at the end of an increment.
     fn lose_load(&self, model: &Model, frame: &Frame, trial: Trial) -> bool {
-        if self.pushed.iter().all(|most| *most == 0.0) {
-            return false;
-        }
-        let external = frame.loads(model, trial.to);
-        let mut both = self.bodies().iter().zip(&self.pushed);
-        both.any(|(free, &most)| most > 0.0 && along(free, &external) <= NO_LOAD * most)
+        let none = no_load(model);
+        let mut loads = self.loads(model, frame, trial);
+        loads.any(|(most, now)| most > 0.0 && now <= none * most)
+    }
+
+    /// Whether loads of floating bodies were there and all are gone at the end of an increment.
+    pub(super) fn lose_all_loads(&self, model: &Model, frame: &Frame, trial: Trial) -> bool {
+        let largest = self.pushed.iter().copied().fold(0.0, f64::max);
+        let none = no_load(model) * largest;
+        largest > 0.0 && self.loads(model, frame, trial).all(|(_, now)| now <= none)
+    }
+
+    /// The largest load of each floating body so far, and that at the end of an increment.
+    fn loads(
+        &self,
+        model: &Model,
+        frame: &Frame,
+        trial: Trial,
+    ) -> impl Iterator<Item = (f64, f64)> {
+        let external = match self.pushed.iter().any(|most| *most > 0.0) {
+            true => frame.loads(model, trial.to),
+            false => Vec::new(),
+        };
+        let both = self.bodies().iter().zip(&self.pushed);
+        both.map(move |(free, &most)| (most, along(free, &external)))
     }
 }
 

@@ -122,6 +122,48 @@ fn pressure_is_finite_where_a_face_hangs_over_an_edge() {
     }
 }
 
+/// Two layers with a period, of which the upper one slides to either side: where points meet facets, that end of the period carries which lies over the primary.
+#[test]
+fn the_end_of_a_period_that_is_over_the_primary_carries() {
+    let equation = |body: &str, c: &str| {
+        format!(
+            "coupling.{body}-{c}.equation.terms = [{{ set = \"{body}.left\", component = \"{c}\" }}, {{ set = \"{body}.right\", component = \"{c}\", factor = -1 }}]\n"
+        )
+    };
+    let all = [("low", "x"), ("low", "y"), ("up", "x"), ("up", "y")];
+    let equations: String = all.iter().map(|(body, c)| equation(body, c)).collect();
+    for friction in [
+        "",
+        "friction.coulomb.mu = 0.2, ",
+        "wear.archard = { coefficient = 1e-12 }, ",
+    ] {
+        let [right, left] = [0.02, -0.02].map(|way| {
+            end(&format!(
+                "format = 1\nmodel.space = \"plane-strain\"\n\
+                 material.m.isotropic = {{ young = 1.2e7, poisson = 0.2 }}\n\
+                 body.low = {{ generate.rectangle = {{ from = [0, -2], to = [6, 0], cells = [6, 2] }}, material = \"m\" }}\n\
+                 body.up = {{ generate.rectangle = {{ to = [6, 3], cells = [6, 5] }}, material = \"m\" }}\n\
+                 interface.c = {{ secondary = \"up.bottom\", primary = \"low.top\", {friction}roles = \"as-named\", discretisation.node-to-facet = {{}} }}\n\
+                 support.base = {{ set = \"low.bottom\", x = 0, y = 0 }}\n\
+                 amplitude.slide.table = [[0, 0], [1, 0], [2, 1]]\n\
+                 support.slide = {{ set = \"up.top\", x = {way}, amplitude = \"slide\" }}\n\
+                 load.p = {{ set = \"up.top\", pressure.value = 1.5e4 }}\n{equations}\
+                 step = [{{ increments.fixed = 1 }}, {{ increments.fixed = 2 }}]\n"
+            ))
+        });
+        let names = ["c.CFN2", "c.CAREA", "c.CPRESSMAX"];
+        let [one, other] = [&right, &left].map(|row| names.map(|name| value(row, name)));
+        for (a, b) in one.iter().zip(&other) {
+            assert!((a - b).abs() < 1e-6 * a, "{friction}{one:?} {other:?}");
+        }
+        assert!(
+            (one[0] - 9e4).abs() < 1.0 && (one[1] - 6.0).abs() < 1e-9,
+            "{friction}{one:?}"
+        );
+        assert!((one[2] / 1.5e4 - 1.0).abs() < 0.05, "{friction}{one:?}");
+    }
+}
+
 /// What follows a reference point that supports hold is held: a wall beside it has nothing to keep out, be the body rigid or elastic at the points that follow.
 #[test]
 fn a_wall_beside_what_follows_a_held_reference_point_carries_nothing() {

@@ -436,6 +436,53 @@ fn a_pin_that_is_let_go_stays_where_it_was() {
     }
 }
 
+/// A plate between a block and a cap, pressed by the cap, which slides, is unloaded and let go. The plate has no load of its own and no point in contact is left.
+#[test]
+fn a_stack_that_is_unloaded_and_let_go_stays_where_it_was() {
+    for law in [
+        "",
+        "normal.linear = { c = 2e2 }, slip.regularised = { epsilon = 10 }, ",
+    ] {
+        let outcome = run(
+            "a stack that is let go",
+            &format!(
+                r#"format = 1
+model.space = "plane-stress"
+material.m.isotropic = {{ young = 3e3, poisson = 0.25 }}
+body.base = {{ generate.rectangle = {{ from = [-2, -2], to = [2, 0], cells = [5, 3] }}, material = "m" }}
+body.plate = {{ generate.rectangle = {{ from = [-2, 0], to = [2, 2], cells = [7, 2] }}, material = "m" }}
+body.cap = {{ generate.rectangle = {{ from = [-2.2, 2], to = [2.4, 3], cells = [8, 2] }}, material = "m" }}
+interface.low = {{ secondary = "plate.bottom", primary = "base.top", {law}friction.coulomb.mu = 0.5 }}
+interface.high = {{ secondary = "plate.top", primary = "cap.bottom", {law}friction.coulomb.mu = 0.5 }}
+amplitude.press.table = [[0, 0], [1, 1], [2, 0]]
+amplitude.slide.table = [[0, 0], [1, 1]]
+support.base = {{ set = "base.bottom", x = 0, y = 0 }}
+support.guide = {{ set = "cap.top", x = 0.01, amplitude = "slide" }}
+load.press = {{ set = "cap.top", pressure.value = 2.5, amplitude = "press" }}
+probe.cap = {{ of = "cap", point = [0, 3] }}
+step = [
+    {{ name = "press", increments.fixed = 4 }},
+    {{ name = "unload", increments.fixed = 2 }},
+    {{ name = "let go", increments.fixed = 2, supports = ["base"] }},
+]
+"#
+            ),
+        );
+        let at =
+            |row: usize, column: &str| outcome.record.increments[row].1.get(column).expect(column);
+        let pressed = at(3, "low.CFN2");
+        assert!((pressed / 11.5 - 1.0).abs() < 0.01, "{law}: {pressed}");
+        for force in ["low.CFN2", "high.CFN2", "low.CFS1", "high.CFS1"] {
+            assert!(outcome.last(force).abs() < 1e-6 * pressed, "{law}: {force}");
+        }
+        let [unloaded, end] = [5, 7].map(|row| at(row, "cap.U1"));
+        assert!(
+            unloaded > 5e-3 && (unloaded - end).abs() < 1e-5,
+            "{law}: {unloaded} {end}"
+        );
+    }
+}
+
 #[test]
 fn a_block_between_jaws_that_open_stays_on_the_lower_one() {
     let text = r#"format = 1

@@ -109,6 +109,7 @@ pub fn commit(interface: &mut InterfaceForce, stage: &Stage) -> History {
         dissipated += passed.dissipated * area;
         work += passed.work * area;
     }
+    share_what_adds_up(input.definition, last, &mut next.points);
     if !state.start.overlap.is_empty() {
         Arc::make_mut(&mut next.start).overlap.clear();
     }
@@ -144,7 +145,33 @@ fn trust_multipliers(points: &mut [Evaluation]) {
     }
 }
 
+/// Gives to all points that move alike what has added up at the one of them that carries.
+fn share_what_adds_up(
+    definition: &InterfaceDefinition,
+    last: &Evaluations,
+    points: &mut [PointHistory],
+) {
+    for (i, earlier) in definition.alike.iter().enumerate() {
+        for &j in earlier {
+            match [i, j].map(|k| last.points[k].facet.is_some()) {
+                [true, false] => points[j] = points[i].handed_to(&points[j]),
+                [false, true] => points[i] = points[j].handed_to(&points[i]),
+                _ => {}
+            }
+        }
+    }
+}
+
 impl PointHistory {
+    /// What adds up of this point, with the rest of the other.
+    fn handed_to(&self, other: &Self) -> Self {
+        PointHistory {
+            status: other.status,
+            gap: other.gap,
+            ..self.at_rest()
+        }
+    }
+
     /// What is kept where nothing acts: what adds up.
     fn at_rest(&self) -> Self {
         PointHistory {

@@ -41,6 +41,9 @@ pub struct InterfaceMesh {
     pub reference: Vec<Vec3>,
     /// Points of the secondary.
     pub points: Vec<ContactPoint>,
+    /// By point, the earlier ones at nodes that move as its own does, as at the ends of a period; empty where there are none. Of points that move alike, the first that
+    /// lies over the primary carries, for the area of all.
+    pub alike: Vec<Vec<usize>>,
     /// The secondary as faces, where gaps are weighted over them; `None` where they are those of the points themselves.
     pub mortar: Option<Mortar>,
     /// The faces of the secondary, to be looked at between points; empty where nobody asks.

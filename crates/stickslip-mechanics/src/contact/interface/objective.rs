@@ -209,6 +209,7 @@ fn drum(
             reference,
             primary_nodes,
             points,
+            alike: Vec::new(),
             mortar,
             neighbours: Vec::new(),
             primary: Primary::Facets(facets),

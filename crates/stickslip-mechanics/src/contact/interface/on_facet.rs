@@ -175,6 +175,15 @@ fn facet_of(
         };
         closest(interface.definition, i, places, &geometry.search, previous)
     };
+    // Where an earlier point that moves alike carries, this one has nothing to do.
+    let earlier = interface.alike.get(i).map_or(&[][..], Vec::as_slice);
+    let carries = |&j: &usize| facet_of(j, facets, scene, &mut None).is_ok();
+    if found.is_ok() && earlier.iter().any(carries) {
+        return Err(Off {
+            distance: f64::INFINITY,
+            stranded: false,
+        });
+    }
     match found {
         // At an outer edge there may be no solution with the point on it and none with it off: after the second time it stays
         // off until the rest has settled, and if it leaves twice again until the next increment.

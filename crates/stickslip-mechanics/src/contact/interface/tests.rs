@@ -92,6 +92,7 @@ pub(in crate::contact) fn sample(kind: ElementKind, kinematics: KinematicsModel)
             reference,
             primary_nodes: 0,
             points,
+            alike: Vec::new(),
             mortar: None,
             neighbours: Vec::new(),
             skin: Vec::new(),

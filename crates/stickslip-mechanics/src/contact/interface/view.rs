@@ -45,6 +45,14 @@ impl ContactView<'_> {
         }
     }
 
+    /// Area of the secondary that a point has to itself `[m²]`: of points that move alike the first has that of all.
+    pub(in crate::contact) fn own_area(&self, i: usize) -> f64 {
+        match self.alike.get(i) {
+            Some(earlier) if !earlier.is_empty() => 0.0,
+            _ => self.points[i].area * self.share,
+        }
+    }
+
     /// Whether explicit increments hold the interface exactly: it is a tie, and not one by a penalty, which is a spring.
     pub(in crate::contact) fn holds_exactly(&self) -> bool {
         let multipliers = self.laws.enforcement.as_dyn().multipliers() != Multipliers::None;

@@ -61,8 +61,8 @@ pub fn wear(contact: ContactView) -> Option<WearReport> {
 
 /// Volume that the depths of both sides make up, that with the points first `[m³]`: what the laws say has been lost, to rounding.
 pub fn hollowed(contact: ContactView) -> [f64; 2] {
-    let points = contact.state.points.iter().zip(&contact.points);
-    let own = points.map(|(h, p)| h.worn * p.area * contact.share).sum();
+    let points = contact.state.points.iter().enumerate();
+    let own = points.map(|(i, h)| h.worn * contact.own_area(i)).sum();
     if let Some([_, volume]) = ground_lost(contact) {
         return [own, volume];
     }
@@ -72,13 +72,13 @@ pub fn hollowed(contact: ContactView) -> [f64; 2] {
 
 /// What sliding has taken so far, place by place: volumes of both sides where one of them wears `[m³]`, otherwise energies `[J]`.
 pub fn taken(contact: ContactView) -> Vec<f64> {
-    let points = contact.state.points.iter().zip(&contact.points);
+    let points = contact.state.points.iter().enumerate();
     if !contact.wears() {
         return points
-            .map(|(h, p)| h.dissipated * p.area * contact.share)
+            .map(|(i, h)| h.dissipated * contact.own_area(i))
             .collect();
     }
-    let own = points.map(|(h, p)| h.worn * p.area * contact.share);
+    let own = points.map(|(i, h)| h.worn * contact.own_area(i));
     let depths = contact.state.traces.iter().zip(&contact.hollows.area);
     let nodes = depths.map(|(t, area)| t[1] * area);
     own.chain(nodes)
@@ -88,7 +88,7 @@ pub fn taken(contact: ContactView) -> Vec<f64> {
 
 /// The places of [`taken`] where something wears: whether they are on the primary, and their areas `[m²]`.
 pub fn wear_places(contact: ContactView) -> Vec<(bool, f64)> {
-    let areas = || contact.points.iter().map(|p| p.area * contact.share);
+    let areas = || (0..contact.points.len()).map(|i| contact.own_area(i));
     let own = areas().map(|area| (false, area));
     let nodes = contact.state.traces.iter().zip(&contact.hollows.area);
     let nodes = nodes.map(|(_, area)| (true, *area));

@@ -307,9 +307,9 @@ impl Make<'_> {
         let primary_nodes = numbering.nodes.len();
         let (points, mortar) =
             self.points(&facets, &opposite, &tips, only.as_deref(), &mut numbering);
-        let points = match mortar {
-            Some(_) => points,
-            None => (self.held_nodes).once(points, &numbering.nodes, primary_nodes),
+        let (points, alike) = match mortar {
+            Some(_) => (points, Vec::new()),
+            None => (self.held_nodes).as_one(points, table.tied, &numbering.nodes, primary_nodes),
         };
         if points.is_empty() {
             return Err(problem_error(vec![Diagnostic::new(
@@ -352,6 +352,7 @@ impl Make<'_> {
                 nodes,
                 primary_nodes,
                 points,
+                alike,
                 mortar,
                 hollows,
                 walls: Walls::default(),

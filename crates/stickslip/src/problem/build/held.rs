@@ -2,7 +2,7 @@
 //!
 //! A multiplier of contact changes a motion. Where a support prescribes that of a node, or a reference point or another tie does, the constraint of the node would act
 //! on whatever of the opposite surface is left to move, by a small weight and so with any force. Such nodes are marked here, once, for all interfaces: on faces of a mortar
-//! their neighbours take over (`contact/mortar/merge.rs`), of points at nodes that move as one only one is left, and where both sides are clamped nothing is left to be kept apart (`InterfaceMesh::clamped`).
+//! their neighbours take over (`contact/mortar/merge.rs`), of points at nodes that move as one only one carries at a time, and where both sides are clamped nothing is left to be kept apart (`InterfaceMesh::clamped`).
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -144,33 +144,54 @@ impl<'a> HeldNodes<'a> {
         first.keys().map(of).collect()
     }
 
-    /// Points that stand at nodes, with one for all nodes that move as one: it takes over the areas of the others. The nodes are those of the primary and those of the secondary after it.
-    pub fn once(
+    /// Points that stand at nodes, and by point the earlier ones that move as it does. Each has the area of all that move alike, as one of them carries for all. Of ties only
+    /// the first is left: they do not slide. The nodes are those of the primary and those of the secondary after it.
+    pub fn as_one(
         &self,
-        points: Vec<ContactPoint>,
+        mut points: Vec<ContactPoint>,
+        tied: bool,
         nodes: &[usize],
         primary_nodes: usize,
-    ) -> Vec<ContactPoint> {
+    ) -> (Vec<ContactPoint>, Vec<Vec<usize>>) {
         let (theirs, own) = nodes.split_at(primary_nodes);
         let repeated = self.repeated(theirs, own);
-        let node = |point: &ContactPoint| point.node().map(|n| nodes[n]);
-        let heir = |point: &ContactPoint| {
-            let node = node(point)?;
-            let as_one = |c: usize| repeated.get(&(node, c)).map(|first| first.0);
-            let first = as_one(0)?;
+        let moves_as_another: BTreeSet<usize> = (repeated.iter())
+            .flat_map(|(one, first)| [one.0, first.0])
+            .collect();
+        let leader = |point: &ContactPoint| {
+            let node = nodes[point.node()?];
+            if !moves_as_another.contains(&node) {
+                return None;
+            }
+            let along = |c: usize| root(&repeated, node, c).0;
+            let first = along(0);
             (1..self.dofs.dim)
-                .all(|c| as_one(c) == Some(first))
+                .all(|c| along(c) == first)
                 .then_some(first)
         };
-        let (gone, mut kept): (Vec<_>, Vec<_>) =
-            points.into_iter().partition(|p| heir(p).is_some());
-        for point in gone {
-            let first = heir(&point);
-            if let Some(first) = kept.iter_mut().find(|p| node(p) == first) {
-                first.area += point.area;
+        let mut groups = BTreeMap::<usize, Vec<usize>>::new();
+        for (i, point) in points.iter().enumerate() {
+            if let Some(first) = leader(point) {
+                groups.entry(first).or_default().push(i);
             }
         }
-        kept
+        let mut alike = vec![Vec::new(); points.len()];
+        for group in groups.values().filter(|group| group.len() > 1) {
+            let area = group.iter().map(|&i| points[i].area).sum();
+            for (k, &i) in group.iter().enumerate() {
+                points[i].area = area;
+                alike[i] = group[..k].to_vec();
+            }
+        }
+        if alike.iter().all(Vec::is_empty) {
+            return (points, Vec::new());
+        }
+        if tied {
+            let mut alone = alike.iter().map(Vec::is_empty);
+            points.retain(|_| alone.next().unwrap_or(true));
+            alike.clear();
+        }
+        (points, alike)
     }
 
     fn mark_one(&mut self, interface: &mut InterfaceDefinition) {
