@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::workspace::{root, target};
+use xtask::workspace::{root, target};
 
 /// The examples whose reports are opened, with what is changed in them.
 const CASES: &[(&str, &[&str])] = &[
@@ -134,7 +134,7 @@ fn modules() -> Result<PathBuf, String> {
 /// The binary, built as the tests build it; where `STICKSLIP` names one, that one.
 fn binary() -> Result<PathBuf, String> {
     if std::env::var_os("STICKSLIP").is_some() {
-        return super::workspace::stickslip();
+        return xtask::workspace::stickslip();
     }
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     run(Command::new(cargo)

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::workspace::{self, output};
+use xtask::workspace::{self, output};
 
 /// Builds the static binary and packs it with completions, manual pages, schema and licences:
 /// `dist/stickslip-VERSION-x86_64-linux.tar.gz`.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use super::workspace::{root, target};
+use xtask::workspace::{root, target};
 
 /// What Debian calls what is needed.
 const PACKAGES: [&str; 3] = ["libmumps-dev", "mpi-default-dev", "mpi-default-bin"];

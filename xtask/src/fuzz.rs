@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::workspace;
+use xtask::workspace;
 
 /// The fuzz targets, the files that seed each, and where these are.
 const TARGETS: &[(&str, &str, &[&str])] = &[

@@ -2,21 +2,12 @@
 
 mod book;
 mod browser;
-mod chatter;
-mod decks;
-mod digests;
 mod dist;
 mod engine;
-mod examples;
 mod fuzz;
-mod kill;
-mod mixes;
-mod peers;
 mod published;
 mod release;
-mod robustness;
-mod walk;
-mod workspace;
+mod tools;
 
 use std::process::ExitCode;
 
@@ -80,22 +71,15 @@ The release binary is built first, unless STICKSLIP names one. CCX names Calculi
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let result = match arguments.split_first() {
+        Some((task, _)) if tools::TASKS.contains(&task.as_str()) => return tools::run(&arguments),
         Some((task, [])) if task == "schema" => published::schema(),
         Some((task, [])) if task == "rooms" => published::rooms(),
         Some((task, what)) if task == "engine" => engine::build(what),
         Some((task, [])) if task == "dist" => dist::pack().map(|_| ()),
         Some((task, what)) if task == "release" => release::run(what),
         Some((task, what)) if task == "book" => book::build(what),
-        Some((task, what)) if task == "decks" => decks::run(what),
-        Some((task, what)) if task == "digests" => digests::run(what),
         Some((task, what)) if task == "fuzz" => fuzz::run(what),
-        Some((task, what)) if task == "kill" => kill::run(what),
-        Some((task, what)) if task == "walk" => walk::walk(what),
-        Some((task, [])) if task == "chatter" => chatter::measure(),
         Some((task, what)) if task == "browser" => browser::check(what),
-        Some((task, what)) if task == "peers" => peers::compare(what),
-        Some((task, what)) if task == "robustness" => robustness::sweep(what),
-        Some((task, what)) if task == "mixes" => mixes::sweep(what),
         _ => Err(USAGE.to_string()),
     };
     match result {

@@ -3,7 +3,7 @@
 
 use std::process::Command;
 
-use crate::workspace;
+use xtask::workspace;
 
 /// Writes the JSON schema as it follows from the structs of problem files to `stickslip.schema.json`, which the program reads and editors find through
 /// the first line of the examples.

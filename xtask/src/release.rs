@@ -6,7 +6,8 @@ mod wheel;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::{dist, workspace};
+use crate::dist;
+use xtask::workspace;
 
 const USAGE: &str = "usage: cargo xtask release --dry-run [--archive FILE] [--wheel FILE]
 the archive and the wheel are built if they are not given; releases are published by the workflows in .github, from a tag; here they are built and tried";

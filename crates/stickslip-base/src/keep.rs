@@ -1,14 +1,16 @@
 //! State as bytes and back, to the bit: what a checkpoint is written with.
 //!
-//! A struct names its fields once, in [`keep!`](crate::keep!); a field that is left out does not compile. Numbers are little-endian, floats keep
+//! `#[derive(Keep)]` keeps all fields of a struct, and variants of an enum with what they carry. Numbers are little-endian, floats keep
 //! every bit, NaN included, lists have their length in front. There is neither a name nor a type in the bytes: they are read by a program that keeps the same
-//! fields in the same order, and who stores them puts a digest of that in front: of the [`layout`], a text that follows from the lists of fields and their types, so
-//! that nobody has to think of it where a field comes in. A general format was considered; those that serde feeds either skip what is
-//! skipped in `summary.json`, which here must not be, or lose the bits of NaN.
+//! fields in the same order, and who stores them puts a digest of that in front: of the [`layout`], a text that follows from the definitions, so
+//! that nobody has to think of it where a field comes in. General formats were considered. Those that serde feeds skip what is skipped in `summary.json`, which
+//! here must not be, and cannot say of what layout they are; borsh refuses NaN.
 
 use std::any::type_name;
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
+
+pub use stickslip_derive::Keep;
 
 /// Bytes that are read from the front.
 #[derive(Debug)]
@@ -66,17 +68,6 @@ impl Layout {
             self.word("}");
         }
     }
-
-    /// Adds a field, whose type follows from how it is read.
-    pub fn field<S, T: Keep>(&mut self, name: &str, _: impl Fn(&S) -> &T) {
-        self.word(name);
-        T::lay_out(self);
-    }
-
-    /// Adds what a variant carries.
-    pub fn carried<S, T: Keep>(&mut self, _: impl Fn(S) -> Option<T>) {
-        T::lay_out(self);
-    }
 }
 
 impl<'a> Kept<'a> {
@@ -102,48 +93,10 @@ impl<'a> Kept<'a> {
     }
 }
 
-/// Says of a struct, by naming all of its fields, or of an enum, by naming all of its variants, that it can be kept. What follows `and` is made again.
+/// Keeps one of a list by the name it has there: what stands in the list is no layout, as its order does not count.
 #[macro_export]
-macro_rules! keep {
-    ($name:ty { $($field:ident),* $(,)? }) => {
-        impl $crate::keep::Keep for $name {
-            fn keep(&self, out: &mut Vec<u8>) {
-                let Self { $($field),* } = self;
-                $($crate::keep::Keep::keep($field, out);)*
-            }
-
-            fn back(from: &mut $crate::keep::Kept) -> Result<Self, $crate::keep::Broken> {
-                Ok(Self { $($field: $crate::keep::Keep::back(from)?),* })
-            }
-
-            fn lay_out(out: &mut $crate::keep::Layout) {
-                out.of::<Self>(stringify!($name), |_out| {
-                    $(_out.field(stringify!($field), |one: &Self| &one.$field);)*
-                });
-            }
-        }
-    };
-    // Fields that are made again.
-    ($name:ty { $($field:ident),* $(,)? } and { $($again:ident: $value:expr),* $(,)? }) => {
-        impl $crate::keep::Keep for $name {
-            fn keep(&self, out: &mut Vec<u8>) {
-                let Self { $($field,)* $($again: _),* } = self;
-                $($crate::keep::Keep::keep($field, out);)*
-            }
-
-            fn back(from: &mut $crate::keep::Kept) -> Result<Self, $crate::keep::Broken> {
-                Ok(Self { $($field: $crate::keep::Keep::back(from)?,)* $($again: $value),* })
-            }
-
-            fn lay_out(out: &mut $crate::keep::Layout) {
-                out.of::<Self>(stringify!($name), |_out| {
-                    $(_out.field(stringify!($field), |one: &Self| &one.$field);)*
-                });
-            }
-        }
-    };
-    // One of a list, by the name it has there: what stands in the list is no layout, as its order does not count.
-    ($name:ty = one of $all:expr, by $called:expr) => {
+macro_rules! keep_by_name {
+    ($name:ty, one of $all:expr, by $called:expr) => {
         impl $crate::keep::Keep for $name {
             fn keep(&self, out: &mut Vec<u8>) {
                 let called: fn(&Self) -> &'static str = $called;
@@ -154,50 +107,12 @@ macro_rules! keep {
                 let called: fn(&Self) -> &'static str = $called;
                 let name: String = $crate::keep::Keep::back(from)?;
                 let mut all = $all.iter().copied();
-                all.find(|one| called(one) == name).ok_or($crate::keep::Broken)
+                all.find(|one| called(one) == name)
+                    .ok_or($crate::keep::Broken)
             }
 
             fn lay_out(out: &mut $crate::keep::Layout) {
                 <String as $crate::keep::Keep>::lay_out(out);
-            }
-        }
-    };
-    // Variants by their place in this list; what they carry is named in brackets. The list is the only one: a variant that it lacks does not compile.
-    ($name:ty [ $($variant:ident $(( $($carried:ident),+ ))?),* $(,)? ]) => {
-        impl $crate::keep::Keep for $name {
-            fn keep(&self, out: &mut Vec<u8>) {
-                let names = [$(stringify!($variant)),*];
-                let place = |name: &str| names.iter().position(|one| *one == name);
-                match self { $(
-                    Self::$variant $(( $($carried),+ ))? => {
-                        out.push(place(stringify!($variant)).unwrap_or(usize::from(u8::MAX)) as u8);
-                        $($($crate::keep::Keep::keep($carried, out);)+)?
-                    }
-                )* }
-            }
-
-            fn back(from: &mut $crate::keep::Kept) -> Result<Self, $crate::keep::Broken> {
-                let names = [$(stringify!($variant)),*];
-                let at: u8 = $crate::keep::Keep::back(from)?;
-                let name = names.get(usize::from(at)).copied();
-                $(if name == Some(stringify!($variant)) {
-                    $($(let $carried = $crate::keep::Keep::back(from)?;)+)?
-                    return Ok(Self::$variant $(( $($carried),+ ))?);
-                })*
-                Err($crate::keep::Broken)
-            }
-
-            fn lay_out(out: &mut $crate::keep::Layout) {
-                out.of::<Self>(stringify!($name), |out| { $(
-                    out.word(stringify!($variant));
-                    $(
-                        #[allow(unreachable_patterns, reason = "an enum of one variant")]
-                        out.carried(|one: Self| match one {
-                            Self::$variant($($carried),+) => Some(($($carried,)+)),
-                            _ => None,
-                        });
-                    )?
-                )* });
             }
         }
     };
@@ -439,28 +354,20 @@ impl<A: Keep + Ord, B: Keep> Keep for BTreeMap<A, B> {
 mod tests {
     use super::*;
 
-    #[derive(Debug, PartialEq)]
+    #[derive(Debug, PartialEq, Keep)]
     enum Name {
         One,
         Both(usize, [f64; 2]),
         Other,
     }
 
-    #[derive(Debug, PartialEq)]
+    #[derive(Debug, PartialEq, Keep)]
     struct Some {
         bits: Vec<u64>,
         name: Option<Name>,
         by: BTreeMap<String, (usize, bool)>,
         all: [i32; 3],
     }
-
-    keep!(Name[One, Both(count, values), Other]);
-    keep!(Some {
-        bits,
-        name,
-        by,
-        all
-    });
 
     fn some() -> Some {
         Some {
@@ -494,6 +401,29 @@ mod tests {
     }
 
     #[test]
+    fn what_is_made_again_is_neither_written_nor_part_of_the_layout() {
+        #[derive(Debug, PartialEq, Keep)]
+        struct Half {
+            kept: u8,
+            #[keep(again)]
+            empty: Vec<u8>,
+            #[keep(again = usize::MAX)]
+            full: usize,
+        }
+        let mut bytes = Vec::new();
+        let half = |empty, full| Half {
+            kept: 3,
+            empty,
+            full,
+        };
+        half(vec![1], 2).keep(&mut bytes);
+        assert_eq!(bytes, [3]);
+        let back = Half::back(&mut Kept::new(&bytes));
+        assert_eq!(back, Ok(half(Vec::new(), usize::MAX)));
+        assert_eq!(layout::<Half>(), "Half { kept u8 } ");
+    }
+
+    #[test]
     fn floats_keep_every_bit() {
         let odd = f64::from_bits(f64::NAN.to_bits() | 5);
         let mut bytes = Vec::new();
@@ -521,8 +451,8 @@ mod tests {
         macro_rules! version {
             ($name:ident: $($field:ident: $type:ty),*) => {
                 pub mod $name {
+                    #[derive(crate::keep::Keep)]
                     pub struct Thing { $(pub $field: $type),* }
-                    keep!(Thing { $($field),* });
                 }
             };
         }

@@ -2,6 +2,9 @@
 //!
 //! It knows neither meshes nor contact. Users import these rooms from the crate `stickslip`, which hands them on.
 
+// What is derived names this crate, in here too.
+extern crate self as stickslip_base;
+
 pub mod error;
 pub mod keep;
 pub mod lease;

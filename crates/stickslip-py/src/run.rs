@@ -37,20 +37,13 @@ enum Quantity {
 }
 
 /// Rows of the history: those that Python has not taken yet, and all.
-#[derive(Default, Clone)]
+#[derive(Default, Clone, stickslip::keep::Keep)]
 pub struct Rows {
     fresh: VecDeque<(String, Vec<f64>)>,
     names: Vec<String>,
     all: Vec<f64>,
     notes: Vec<String>,
 }
-
-stickslip::keep!(Rows {
-    fresh,
-    names,
-    all,
-    notes
-});
 
 impl Observer for Rows {
     fn see(&mut self, analysis: &Analysis, event: Event) -> Result<(), Error> {

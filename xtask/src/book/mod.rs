@@ -13,7 +13,7 @@ mod verification;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::workspace;
+use xtask::workspace;
 
 /// The version of mdBook that is installed where none is. No pre-processors: formulas are typeset by the page, with what is in `book/src/katex`, so that the
 /// book needs neither a network nor another program.

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use serde_json::{Map, Value};
 
-use crate::workspace;
+use xtask::workspace;
 
 const NOTE: &str = "<!-- Generated from stickslip.schema.json by `cargo xtask book`. -->\n";
 

@@ -6,8 +6,8 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-use crate::examples::{self, Expectation};
-use crate::workspace;
+use xtask::examples::{self, Expectation};
+use xtask::workspace;
 
 /// A run is given up after this time `[s]`.
 const PATIENCE: u64 = 1800;

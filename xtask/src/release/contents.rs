@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use crate::{dist, workspace};
+use crate::dist;
+use xtask::workspace;
 
 /// Compares the licences of all dependencies with those that `deny.toml` allows.
 pub fn licences() -> Result<(), String> {

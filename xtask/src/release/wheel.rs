@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::workspace::{self, Scratch, output, succeed};
+use xtask::workspace::{self, Scratch, output, succeed};
 
 /// What is done with an installed wheel: an analysis, its results, a picture, all from Python.
 const TRY: &str = "

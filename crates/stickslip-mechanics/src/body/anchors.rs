@@ -9,7 +9,7 @@ use crate::system::{Assembler, Augmentation, Dofs, Energy, Force, Stage, StepFai
 /// After each equilibrium the anchors move to where the bodies have come, and another is sought: the proximal point method. Where
 /// contact holds a body the anchors soon move no more; then they carry nothing, and have changed nothing. A motion that nothing resists
 /// and no load drives stays where it is.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, crate::keep::Keep)]
 pub struct Anchors {
     dofs: Dofs,
     groups: Vec<Group>,
@@ -20,14 +20,14 @@ pub struct Anchors {
     past: Vec<[Vec<f64>; 2]>,
     /// An equilibrium took no iteration: what is left is too small to tell where the bodies go.
     near: bool,
-    /// Norm of the other forces of contact at the last evaluation `[N]`.
-    others: f64,
     /// Bodies were still on their way after all rounds. Newton's method may begin again after that.
     adrift: bool,
+    /// Norm of the other forces of contact at the last evaluation `[N]`.
+    others: f64,
 }
 
 /// The anchors of one body.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, crate::keep::Keep)]
 struct Group {
     points: Vec<usize>,
     /// Stiffness in each direction at a point `[N/m]`: now, to start with, and at least.
@@ -428,26 +428,3 @@ pub fn spread(mesh: &Mesh, points: std::ops::Range<usize>, count: usize) -> Vec<
     }
     out
 }
-
-crate::keep!(Anchors {
-    dofs,
-    groups,
-    rounds,
-    evaluations,
-    past,
-    near,
-    adrift,
-    others
-});
-crate::keep!(Group {
-    points,
-    stiffness,
-    first,
-    least,
-    force,
-    max_step,
-    start,
-    at,
-    now,
-    ahead
-});

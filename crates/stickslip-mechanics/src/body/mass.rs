@@ -3,12 +3,15 @@
 use super::geometry::{Table, by_nodes, coordinates, point};
 use super::redistribution::{Cell, factors};
 use super::{Elastic, Space};
+use crate::keep::Keep;
 use crate::linear::BlockCsr;
 use crate::mesh::{Block, Mesh};
 use crate::shape::mass_rule;
 
 /// How the mass of a cell is given to its nodes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, Keep,
+)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum MassKind {
@@ -148,5 +151,3 @@ fn masses<const N: usize>(
         );
     }
 }
-
-crate::keep!(MassKind[Consistent, Lumped]);

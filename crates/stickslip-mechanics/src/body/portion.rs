@@ -12,7 +12,7 @@ use crate::material::Stiffness;
 use crate::mesh::{Block, Mesh};
 
 /// Cells of a body that are to be computed elsewhere.
-#[derive(Debug)]
+#[derive(Debug, crate::keep::Keep)]
 pub struct Portion {
     mesh: Mesh,
     /// Which space, and its thickness.
@@ -21,14 +21,6 @@ pub struct Portion {
     /// What each block is made of: all of it, or each cell.
     materials: Vec<(Stiffness, Option<Vec<Stiffness>>)>,
 }
-
-crate::keep!(Portion {
-    mesh,
-    space,
-    formulation,
-    materials
-});
-crate::keep!(Formulation[Standard, MeanDilatation, Reduced, IncompatibleModes]);
 
 /// What bytes mean to this program.
 fn meaning() -> [u64; 2] {

@@ -1,4 +1,5 @@
 use crate::error::Diagnostic;
+use crate::keep::Keep;
 use crate::math::Vec3;
 use crate::mesh::Mesh;
 
@@ -23,7 +24,9 @@ pub enum Space {
 }
 
 /// How the elements make strains of displacements.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, Keep,
+)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Formulation {

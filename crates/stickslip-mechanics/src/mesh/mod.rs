@@ -17,7 +17,7 @@ use crate::math::Vec3;
 use crate::shape::ElementKind;
 
 /// A mesh. Indices are positions (from 0); the numbers the user knows are kept in `point_ids` and `Block::cell_ids`.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, crate::keep::Keep)]
 pub struct Mesh {
     /// Dimension of the space: 2 or 3.
     pub dim: usize,
@@ -36,7 +36,7 @@ pub struct Mesh {
 }
 
 /// Cells of one kind.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, crate::keep::Keep)]
 pub struct Block {
     /// Their kind.
     pub kind: ElementKind,
@@ -47,7 +47,7 @@ pub struct Block {
 }
 
 /// A cell: block and position in it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, crate::keep::Keep)]
 pub struct CellRef {
     /// Index of the block.
     pub block: usize,
@@ -56,27 +56,10 @@ pub struct CellRef {
 }
 
 /// A face of a cell, as in `ReferenceElement::faces`.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, crate::keep::Keep)]
 pub struct FacetRef {
     /// The cell.
     pub cell: CellRef,
     /// Which of its faces.
     pub face: usize,
 }
-
-crate::keep!(Mesh {
-    dim,
-    points,
-    point_ids,
-    blocks,
-    point_sets,
-    cell_sets,
-    facet_sets
-});
-crate::keep!(Block {
-    kind,
-    connectivity,
-    cell_ids
-});
-crate::keep!(CellRef { block, cell });
-crate::keep!(FacetRef { cell, face });

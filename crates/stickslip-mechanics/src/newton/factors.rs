@@ -16,12 +16,10 @@ pub struct Factors {
 }
 
 /// What factors were made of: enough to make them again, with the same bits.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub struct FactorsRecipe {
     kept: Vec<(u64, Recipe)>,
 }
-
-crate::keep!(FactorsRecipe { kept });
 
 /// Most matrices whose factors are kept.
 pub const MOST_FACTORS: usize = 4;

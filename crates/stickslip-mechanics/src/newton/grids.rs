@@ -78,13 +78,11 @@ struct Made {
 }
 
 /// What of contact a hierarchy is made of.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 struct Seen {
     blocks: Vec<StandIn>,
     pairs: Vec<ContactPair>,
 }
-
-crate::keep!(Seen { blocks, pairs });
 
 impl Seen {
     fn of(operator: Operator) -> Arc<Self> {
@@ -108,13 +106,13 @@ impl Seen {
 }
 
 /// What [`Grids`] were made of: enough to make them again, with the same bits.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub(super) struct GridsRecipe {
     given_up: bool,
     made: Option<MadeRecipe>,
 }
 
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 struct MadeRecipe {
     fixed: Vec<bool>,
     at_setup: Arc<Seen>,
@@ -122,15 +120,6 @@ struct MadeRecipe {
     fresh: bool,
     slow: bool,
 }
-
-crate::keep!(GridsRecipe { given_up, made });
-crate::keep!(MadeRecipe {
-    fixed,
-    at_setup,
-    at_refresh,
-    fresh,
-    slow
-});
 
 impl Made {
     /// Makes the finest level anew with other gap variables of the same points; `false` where other contact has changed too much for that.

@@ -32,7 +32,7 @@ pub struct Linearised {
 }
 
 /// What a [`Linearised`] was made of: enough to make it again, with the same bits.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub(super) struct Recipe {
     pub grids: Option<GridsRecipe>,
     fixed: Vec<bool>,
@@ -40,14 +40,6 @@ pub(super) struct Recipe {
     factored: Option<Arc<Vec<StandIn>>>,
     stale: bool,
 }
-
-crate::keep!(Recipe {
-    grids,
-    fixed,
-    analysed,
-    factored,
-    stale
-});
 
 impl Linearised {
     /// What it was made of; without its numbers where its matrix is not used any more.

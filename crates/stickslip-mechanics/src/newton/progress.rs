@@ -2,7 +2,7 @@ use super::strategy::Strategy;
 use crate::system::Tally;
 
 /// One Newton iteration, for the log.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, crate::keep::Keep)]
 pub struct Progress {
     /// Iteration, from 0; restarts with every multiplier update.
     pub iteration: usize,
@@ -19,16 +19,6 @@ pub struct Progress {
     /// The way it belongs to.
     pub strategy: Strategy,
 }
-
-crate::keep!(Progress {
-    iteration,
-    round,
-    residual,
-    step,
-    krylov,
-    tally,
-    strategy
-});
 
 /// An equilibrium.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,5 +1,5 @@
 /// Counts over an analysis.
-#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct Statistics {
     /// Newton iterations.
@@ -38,26 +38,8 @@ pub struct Statistics {
     pub hierarchies: Hierarchies,
 }
 
-crate::keep!(Statistics {
-    iterations,
-    augmentations,
-    fallbacks,
-    columns,
-    analyses,
-    factorisations,
-    substructures,
-    krylov,
-    reduced,
-    kept_gaps,
-    evaluations,
-    seconds,
-    factors,
-    linear_solve,
-    hierarchies
-});
-
 /// Where substructures of condensed bodies came from.
-#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, crate::keep::Keep)]
 pub struct Substructures {
     /// Substructures factored.
     #[serde(rename = "substructures-made")]
@@ -70,10 +52,8 @@ pub struct Substructures {
     pub read: usize,
 }
 
-crate::keep!(Substructures { made, shared, read });
-
 /// Seconds by what they were spent on.
-#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, crate::keep::Keep)]
 pub struct Seconds {
     /// Seconds in looking for substructures made before, reading them included.
     #[serde(rename = "seconds-find")]
@@ -98,18 +78,8 @@ pub struct Seconds {
     pub contact: f64,
 }
 
-crate::keep!(Seconds {
-    find,
-    order,
-    factor,
-    solve,
-    condense,
-    recover,
-    contact
-});
-
 /// How large factors are, and what they cost.
-#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, crate::keep::Keep)]
 pub struct FactorSizes {
     /// Nonzeros of the last factor.
     #[serde(rename = "factor-nonzeros")]
@@ -121,14 +91,8 @@ pub struct FactorSizes {
     pub bytes: u64,
 }
 
-crate::keep!(FactorSizes {
-    nonzeros,
-    flops,
-    bytes
-});
-
 /// Hierarchies of multigrid.
-#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, serde::Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct Hierarchies {
     /// Multigrid hierarchies made.
@@ -143,11 +107,3 @@ pub struct Hierarchies {
     #[serde(rename = "hierarchy-bytes")]
     pub bytes: usize,
 }
-
-crate::keep!(Hierarchies {
-    setups,
-    refreshes,
-    levels,
-    operator_complexity,
-    bytes
-});

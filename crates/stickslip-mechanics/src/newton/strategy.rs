@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 /// How an equilibrium is looked for. When the first way fails the other one is tried.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, crate::keep::Keep)]
 pub enum Strategy {
     /// Semi-smooth Newton. Steps are shortened only if they make matters much worse.
     #[default]
@@ -13,7 +13,7 @@ pub enum Strategy {
 }
 
 /// A way other than the plain one that was tried.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct Fallback {
     /// Which.
@@ -49,11 +49,3 @@ impl Serialize for Strategy {
         serializer.serialize_str(self.key())
     }
 }
-
-crate::keep!(Strategy[Plain, FrictionProblem]);
-crate::keep!(Fallback {
-    kind,
-    iterations,
-    converged,
-    solver
-});

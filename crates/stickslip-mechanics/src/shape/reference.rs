@@ -1,8 +1,20 @@
 //! What a reference element says.
 
+use crate::keep::Keep;
+
 /// The element family.
 #[derive(
-    Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, serde::Serialize, serde::Deserialize,
+    Debug,
+    Clone,
+    Copy,
+    PartialEq,
+    Eq,
+    Hash,
+    PartialOrd,
+    Ord,
+    serde::Serialize,
+    serde::Deserialize,
+    Keep,
 )]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
@@ -32,10 +44,6 @@ pub enum ElementKind {
     /// 15-node serendipity wedge.
     Wedge15,
 }
-
-crate::keep!(ElementKind[
-    Line2, Line3, Tri3, Tri6, Quad4, Quad8, Tet4, Tet10, Hex8, Hex20, Wedge6, Wedge15
-]);
 
 /// Most nodes any element has.
 pub const MAX_NODES: usize = 20;

@@ -54,7 +54,7 @@ impl ContactBlock {
 }
 
 /// A point of a secondary surface that is a point of the mesh, and the facet it meets.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, crate::keep::Keep)]
 pub struct ContactPair {
     /// The point of the mesh.
     pub point: usize,
@@ -63,12 +63,6 @@ pub struct ContactPair {
     /// Unit normal there, of either side.
     pub normal: Vec3,
 }
-
-crate::keep!(ContactPair {
-    point,
-    facet,
-    normal
-});
 
 /// The tangent of a contact point in parts, as [`Assembler`] takes them; see [`ContactBlock`].
 #[derive(Debug, Clone, Copy)]

@@ -1,7 +1,7 @@
 use super::Dofs;
 
 /// Which dofs are prescribed at an increment, and to what.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, crate::keep::Keep)]
 pub struct Constraints {
     /// `true` where the displacement is prescribed, by dof.
     pub fixed: Vec<bool>,
@@ -33,5 +33,3 @@ impl Constraints {
         }
     }
 }
-
-crate::keep!(Constraints { fixed, values });

@@ -1,7 +1,7 @@
 use std::fmt;
 
 /// The numbering of unknowns: `dim` displacements a point, point by point.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, crate::keep::Keep)]
 pub struct Dofs {
     /// Displacements a point: 2 or 3.
     pub dim: usize,
@@ -84,5 +84,3 @@ impl Component {
         }
     }
 }
-
-crate::keep!(Dofs { dim, points });

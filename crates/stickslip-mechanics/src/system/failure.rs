@@ -1,7 +1,7 @@
 use std::fmt;
 
 /// Why a step could not be taken.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, crate::keep::Keep)]
 pub enum Cause {
     /// Newton's iteration did not converge.
     NotConverged,
@@ -30,7 +30,7 @@ pub enum Cause {
 }
 
 /// A place to look at.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, crate::keep::Keep)]
 pub struct Culprit {
     /// What and where: `point 17 of base at (0.1, 0, 0)`.
     pub place: String,
@@ -41,7 +41,7 @@ pub struct Culprit {
 }
 
 /// What a point of an interface did in an attempt that failed, in numbers.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, crate::keep::Keep)]
 pub struct Evidence {
     /// The interface.
     pub interface: String,
@@ -84,7 +84,7 @@ impl fmt::Display for Culprit {
 }
 
 /// A step that could not be taken: why, who, and what to try. The stepper cuts back or gives up with it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, crate::keep::Keep)]
 pub struct StepFailure {
     /// The kind of failure.
     pub cause: Cause,
@@ -101,7 +101,7 @@ pub struct StepFailure {
 }
 
 /// What became of an increment as a friction problem, where that has failed as well.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, crate::keep::Keep)]
 pub struct Otherwise {
     /// In a sentence: which problem, who came how far.
     pub message: String,
@@ -140,54 +140,3 @@ impl StepFailure {
         }
     }
 }
-
-crate::keep!(Cause[
-    NotConverged,
-    NotFinite,
-    Singular,
-    LinearSolver,
-    Interior,
-    CollapsedCell,
-    TooFar,
-    Reach,
-    Event,
-    Memory,
-    Interrupted,
-    Engine
-]);
-crate::keep!(Culprit {
-    place,
-    what,
-    evidence
-});
-crate::keep!(Evidence {
-    interface,
-    node,
-    points,
-    position,
-    normal,
-    flips,
-    course,
-    left,
-    slip,
-    facet,
-    cell,
-    gap,
-    pressure,
-    shear,
-    limit,
-    kink
-});
-crate::keep!(StepFailure {
-    cause,
-    message,
-    culprits,
-    help,
-    dof,
-    otherwise
-});
-crate::keep!(Otherwise {
-    message,
-    culprits,
-    help
-});

@@ -5,7 +5,7 @@ use super::{Assembler, StepFailure};
 use crate::friction::PointLaw;
 
 /// Displacement, velocity and acceleration of all dofs at a time.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, crate::keep::Keep)]
 pub struct State {
     /// Time.
     pub t: f64,
@@ -54,7 +54,7 @@ pub enum Augmentation {
 }
 
 /// Energies of one force `[energy]`; `dissipated` and `work` are totals since the start of the analysis.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, crate::keep::Keep)]
 pub struct Energy {
     /// Recoverable energy stored now.
     pub stored: f64,
@@ -176,7 +176,7 @@ pub trait ActiveSet {
 }
 
 /// Counts of contact points by status.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize, crate::keep::Keep)]
 pub struct Tally {
     /// Not in contact.
     pub open: usize,
@@ -198,21 +198,3 @@ impl std::iter::Sum for Tally {
         })
     }
 }
-
-crate::keep!(State { t, u, v, a });
-crate::keep!(Energy {
-    stored,
-    dissipated,
-    work,
-    damped,
-    path,
-    uncertain,
-    excess
-});
-
-crate::keep!(Tally {
-    open,
-    stick,
-    slip,
-    changed
-});

@@ -296,7 +296,7 @@ pub(crate) static ENERGY: Kind = Kind {
 };
 
 /// What a figure came to after an increment.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, crate::keep::Keep)]
 struct Noted {
     amount: f64,
     scale: f64,
@@ -304,14 +304,14 @@ struct Noted {
 }
 
 /// Of all scales between two powers of two, the increments that may become the worst.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, crate::keep::Keep)]
 struct Octave {
     largest: Noted,
     steepest: Noted,
 }
 
 /// A figure at a place through the run.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub(crate) struct Track {
     /// The largest scale.
     pub largest: f64,
@@ -405,18 +405,6 @@ impl Track {
         )
     }
 }
-
-crate::keep!(Noted {
-    amount,
-    scale,
-    time
-});
-crate::keep!(Octave { largest, steepest });
-crate::keep!(Track {
-    largest,
-    octaves,
-    moving
-});
 
 #[cfg(test)]
 mod tests {

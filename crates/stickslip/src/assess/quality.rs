@@ -20,7 +20,7 @@ use crate::model::limits::{GateMode, Limits};
 use crate::system::Tally;
 
 /// The outcome of the quality gate.
-#[derive(Debug, Clone, Default, Serialize)]
+#[derive(Debug, Clone, Default, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct Gate {
     /// What becomes of a figure above its limit.
@@ -35,7 +35,7 @@ pub struct Gate {
 }
 
 /// A figure at its worst.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct Figure {
     /// Its name: the key of its limit in `[quality]`.
@@ -566,22 +566,7 @@ pub(crate) fn interfaces(view: &View, gate: &Gate, watches: &[Watch]) -> Vec<Int
     .collect()
 }
 
-crate::keep!(&'static Kind = one of figures::ALL, by |kind| kind.name);
-crate::keep!(Figure {
-    figure,
-    place,
-    value,
-    limit,
-    met,
-    time,
-    kind
-});
-crate::keep!(Gate {
-    gate,
-    met,
-    figures,
-    tracks
-});
+stickslip_base::keep_by_name!(&'static Kind, one of figures::ALL, by |kind| kind.name);
 
 #[cfg(test)]
 mod tests {

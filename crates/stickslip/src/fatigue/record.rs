@@ -3,7 +3,7 @@
 use crate::math::Vec3;
 
 /// The cycle at hand and the last one that was judged: plain data, which a checkpoint holds.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub struct Record {
     /// Stress of the points that are looked at `[Pa]`, six components each, by increment of the cycle at hand.
     pub stress: Vec<Vec<f64>>,
@@ -46,7 +46,7 @@ impl Record {
 }
 
 /// What a criterion said of a cycle.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub struct Found {
     /// The criterion, as in tables and fields.
     pub name: String,
@@ -59,7 +59,7 @@ pub struct Found {
 }
 
 /// Where a criterion was largest in a cycle.
-#[derive(Debug, Clone, Default, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct Maximum {
     /// The criterion, as in tables and fields.
@@ -77,24 +77,3 @@ pub struct Maximum {
     /// Normal of the worst plane, that of the surface where the criterion looks at that.
     pub plane: Vec3,
 }
-
-crate::keep!(Record {
-    stress,
-    rubbed,
-    found
-});
-crate::keep!(Found {
-    name,
-    points,
-    values,
-    normals
-});
-crate::keep!(Maximum {
-    criterion,
-    value,
-    step,
-    cycle,
-    node,
-    place,
-    plane
-});

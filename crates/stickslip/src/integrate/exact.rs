@@ -31,7 +31,7 @@ const AGREED: f64 = 1e-9;
 const ROUNDED: f64 = 4.0 * f64::EPSILON;
 
 /// Rows of all that is held.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 struct Rows {
     /// Numbers of the rows of couplings, which come first, and sums that they should have.
     coupled: Vec<(usize, f64)>,
@@ -45,7 +45,7 @@ struct Rows {
 }
 
 /// All that is held, and the forces that hold it.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub(crate) struct Exact {
     rows: Rows,
     /// Forces along the rows.
@@ -53,19 +53,6 @@ pub(crate) struct Exact {
     /// What is shown on supports beyond that, by dof `[N]`; empty if nothing is.
     beyond: Vec<f64>,
 }
-
-crate::keep!(Rows {
-    coupled,
-    tied,
-    ties,
-    terms,
-    dofs
-});
-crate::keep!(Exact {
-    rows,
-    forces,
-    beyond
-});
 
 /// How dofs give way to forces.
 pub(crate) struct Mobility<'a> {

@@ -40,15 +40,13 @@ pub(crate) struct RayleighDamping {
 }
 
 /// What is said of explicit increments when they begin.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, crate::keep::Keep)]
 pub(crate) struct Begun {
     /// Mass added by mass scaling, relative to the mass there is.
     pub mass_added: f64,
     /// Longest stable increment, with its safety; 0 where any is stable.
     pub stable: f64,
 }
-
-crate::keep!(Begun { mass_added, stable });
 
 /// What explicit increments need beside the state.
 pub(crate) struct Explicit {
@@ -485,7 +483,7 @@ pub(crate) fn unstable(step: &str, time: f64, dt: f64, stable: f64, duration: f6
 }
 
 /// What explicit increments take along.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, crate::keep::Keep)]
 pub(crate) struct ExplicitState {
     damped: Vec<f64>,
     damped_before: Vec<f64>,
@@ -494,15 +492,6 @@ pub(crate) struct ExplicitState {
     loaded: bool,
     exact: Exact,
 }
-
-crate::keep!(ExplicitState {
-    damped,
-    damped_before,
-    still,
-    begun,
-    loaded,
-    exact
-});
 
 impl Explicit {
     /// What it takes along.

@@ -16,7 +16,7 @@ pub fn figures_of_mode(number: usize) -> [String; 2] {
 }
 
 /// Modes about a state.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct ModalOutcome {
     /// Name of the step.
@@ -47,11 +47,13 @@ pub struct ModalOutcome {
     /// The answer to forces at frequencies.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub response: Option<Response>,
-    /// Matrices by name, to be written.
+    /// Matrices by name, to be written when they are found.
     #[serde(skip)]
+    #[keep(again)]
     pub export: Vec<Export>,
-    /// Dense arrays by name, to be written.
+    /// Dense arrays by name, to be written when they are found.
     #[serde(skip)]
+    #[keep(again)]
     pub arrays: Vec<Array>,
     /// What a user should know.
     #[serde(skip)]
@@ -88,7 +90,7 @@ impl ModalOutcome {
 }
 
 /// A mode: displacements go with `e^(λ t)`, `λ` = growth + 2π i frequency.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct Mode {
     /// Cycles per unit of time.
@@ -111,7 +113,7 @@ pub struct Mode {
 }
 
 /// Frequencies and growth over friction, speed or load relative to that of the step.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct FrictionMap {
     /// What is multiplied: `friction`, `speed` or `load`.
@@ -134,7 +136,7 @@ pub struct FrictionMap {
 }
 
 /// The modes of one factor.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct MapRow {
     /// Friction, speed or load relative to that of the step.
@@ -149,7 +151,7 @@ pub struct MapRow {
 }
 
 /// Displacements under forces that go with `e^(i ω t)`.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct Response {
     /// Displacements of probes, as in the history: `tip.U1`.
@@ -161,7 +163,7 @@ pub struct Response {
 }
 
 /// The answer at a frequency.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct ResponseRow {
     /// Cycles per unit of time.
@@ -176,7 +178,7 @@ pub struct ResponseRow {
 }
 
 /// How the eigenvalue of a mode changes with a quantity, per relative change of it.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct Sensitivity {
     /// Number of the mode, from 1.
@@ -212,67 +214,3 @@ pub struct Array {
     /// Its numbers, row by row.
     pub numbers: Numbers,
 }
-
-// Matrices are written when they are found.
-crate::keep!(ModalOutcome {
-    step,
-    complex,
-    modes,
-    directions,
-    masses,
-    sliding,
-    points,
-    factorisations,
-    solves,
-    shapes,
-    map,
-    sensitivities,
-    response,
-    notes
-} and {
-    export: Vec::new(),
-    arrays: Vec::new(),
-});
-crate::keep!(Mode {
-    frequency,
-    growth,
-    damping_ratio,
-    residual,
-    participation,
-    effective_mass,
-    feed,
-    shape
-});
-crate::keep!(FrictionMap {
-    over,
-    mu,
-    dimension,
-    solves,
-    rows,
-    critical,
-    residual,
-    undamped
-});
-crate::keep!(Response {
-    columns,
-    dimension,
-    rows
-});
-crate::keep!(ResponseRow {
-    frequency,
-    residual,
-    values,
-    shape
-});
-crate::keep!(MapRow {
-    factor,
-    mu,
-    modes,
-    residual
-});
-crate::keep!(Sensitivity {
-    mode,
-    of,
-    growth,
-    frequency
-});

@@ -10,13 +10,11 @@ const REACH: usize = 2;
 const BENT: f64 = 0.1;
 
 /// The last increments of a quasi-static step, as long as what drives them goes on as it did.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub struct Course {
     /// The length of each `[s]` and the numbers at its start, the latest first.
     past: Vec<(f64, Vec<f64>)>,
 }
-
-crate::keep!(Course { past });
 
 impl Course {
     /// What the last increments did is no guide any more.

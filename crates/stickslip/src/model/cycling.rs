@@ -63,15 +63,13 @@ fn is_once(n: &usize) -> bool {
 }
 
 /// The cycle at hand, in steps that choose their jumps: those before it, and how many it stands for, itself included.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, crate::keep::Keep)]
 pub struct Block {
     /// Cycles that were over when it began.
     pub before: usize,
     /// How many it stands for; 0 between two of them.
     pub stands_for: usize,
 }
-
-crate::keep!(Block { before, stands_for });
 
 /// Part of a cycle that is rounding.
 const ON_TIME: f64 = 1e-9;

@@ -12,6 +12,7 @@ use crate::body::{Elastic, MassKind, Space};
 use crate::contact::interface::{Change, Steady};
 use crate::fatigue::FatigueModel;
 use crate::io::frd::Encoding;
+use crate::keep::Keep;
 use crate::math::{Mat3, Vec3};
 use crate::mesh::Mesh;
 use crate::newton::condensed::engine::EngineModel;
@@ -182,7 +183,9 @@ pub struct Initial {
 }
 
 /// How the systems of Newton's method are solved.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(
+    Debug, Clone, Copy, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize, Keep,
+)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Solution {
@@ -425,5 +428,3 @@ pub struct OutputPlan {
     /// A checkpoint after every so many increments, and after so many seconds of wall clock; 0: not by that.
     pub checkpoint: (usize, f64),
 }
-
-crate::keep!(Solution[Automatic, Condensed, Sparse, Multigrid]);

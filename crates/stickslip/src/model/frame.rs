@@ -13,7 +13,7 @@ use crate::fatigue::Record;
 use crate::system::State;
 
 /// Where an analysis stands after an accepted increment: all that follows, follows from this and the model.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub struct Frame {
     /// Index of the step.
     pub step: usize,
@@ -48,7 +48,7 @@ pub struct Frame {
 }
 
 /// What interfaces and couplings have been through.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub struct ContactMemory {
     /// By interface.
     pub interfaces: Vec<History>,
@@ -57,7 +57,7 @@ pub struct ContactMemory {
 }
 
 /// What an implicit step knows beside the state; empty in other steps.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub struct Motion {
     /// Elastic forces `K u` `[N]`.
     pub internal: Vec<f64>,
@@ -66,30 +66,3 @@ pub struct Motion {
     /// The farthest the bodies have been from there, in the norm of the mass `[m √kg]`.
     pub travel: f64,
 }
-
-crate::keep!(Frame {
-    step,
-    state,
-    forces,
-    contacts,
-    contact,
-    load,
-    coupled,
-    starts,
-    released,
-    course,
-    motion,
-    block,
-    fatigue,
-    kick,
-    ledger
-});
-crate::keep!(ContactMemory {
-    interfaces,
-    couplings
-});
-crate::keep!(Motion {
-    internal,
-    start,
-    travel
-});

@@ -19,7 +19,7 @@ const FREE: f64 = 1e-10;
 const NAMED: f64 = 0.1;
 
 /// A body that supports and springs leave free to move, with those that ties make one with it.
-#[derive(Clone)]
+#[derive(Clone, crate::keep::Keep)]
 pub(crate) struct FreeBody {
     /// The indices of the bodies.
     pub bodies: Vec<usize>,
@@ -362,9 +362,3 @@ pub(crate) fn motions(model: &Model, link: usize) -> Vec<RigidMode> {
         })
         .collect()
 }
-
-crate::keep!(FreeBody {
-    bodies,
-    motions,
-    slides
-});

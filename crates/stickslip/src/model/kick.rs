@@ -11,7 +11,7 @@ use crate::math::vector::dot;
 use crate::system::{State, Tally};
 
 /// A mode along which a step begins.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, crate::keep::Keep)]
 pub struct Kick {
     /// Index of the step.
     pub step: usize,
@@ -32,7 +32,7 @@ pub struct Kick {
 }
 
 /// How a mode grows while the motion is small: until points stick or open that did not at the start.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, crate::keep::Keep)]
 pub struct Course {
     /// Time of the start `[s]`.
     start: f64,
@@ -47,7 +47,7 @@ pub struct Course {
 }
 
 /// Growth and frequency of a motion that began along a mode, and those of the eigenvalue.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct Growth {
     /// Name of the step.
@@ -70,43 +70,8 @@ pub struct Growth {
     pub cycles: f64,
 }
 
-crate::keep!(Kick {
-    step,
-    value,
-    about,
-    shape,
-    images,
-    amplitude,
-    last,
-    course
-});
-crate::keep!(Share {
-    amplitude,
-    phase,
-    rest
-});
-crate::keep!(Course {
-    start,
-    status,
-    over,
-    passed,
-    turned,
-    sums
-});
-crate::keep!(Growth {
-    step,
-    number,
-    start,
-    amplitudes,
-    growth,
-    measured_growth,
-    frequency,
-    measured_frequency,
-    cycles
-});
-
 /// How much of a mode is in a motion.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, crate::keep::Keep)]
 pub struct Share {
     /// Largest displacement of a point that the mode has at this amplitude `[m]`.
     pub amplitude: f64,

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::system::Energy;
 
 /// Energy that flows over an increment.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, crate::keep::Keep)]
 pub(crate) struct Flow {
     /// Work of loads and reactions.
     pub work: f64,
@@ -26,7 +26,7 @@ pub(crate) struct Flow {
 const FED: f64 = 4.0;
 
 /// Energies `[J]` (per unit of thickness or over 2π as the model has it).
-#[derive(Debug, Clone, Copy, Default, Serialize)]
+#[derive(Debug, Clone, Copy, Default, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct EnergyLedger {
     /// Kinetic energy of the bodies.
@@ -67,7 +67,7 @@ pub struct EnergyLedger {
 }
 
 /// What has been entered so far beside the energies that are reported `[J]`.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, crate::keep::Keep)]
 pub(crate) struct Entered {
     /// By how much `strain` is more than it were without thermal strain. Thermal forces enter their work like loads; with this it is that of the
     /// strain itself.
@@ -83,7 +83,7 @@ pub(crate) struct Entered {
 }
 
 /// How well the balance of energies closes over the whole analysis.
-#[derive(Debug, Clone, Copy, Default, Serialize)]
+#[derive(Debug, Clone, Copy, Default, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct EnergyQuality {
     /// Largest energy in play so far: stored and dissipated `[J]`.
@@ -203,46 +203,3 @@ impl EnergyQuality {
         self.met = self.residual <= self.limit;
     }
 }
-
-crate::keep!(EnergyLedger {
-    kinetic,
-    strain,
-    contact,
-    friction,
-    contact_damping,
-    rayleigh_damping,
-    numerical,
-    artificial,
-    external_work,
-    belt_work,
-    path,
-    uncertain,
-    entered,
-    initial,
-    residual
-});
-crate::keep!(Entered {
-    thermal,
-    held,
-    passed,
-    moved,
-    exceeded,
-    impacts,
-    transmitted
-});
-crate::keep!(EnergyQuality {
-    scale,
-    largest,
-    residual,
-    limit,
-    met
-});
-
-crate::keep!(Flow {
-    work,
-    damped,
-    numerical,
-    impact,
-    transmitted,
-    thermal
-});

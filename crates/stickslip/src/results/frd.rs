@@ -84,14 +84,12 @@ impl Default for FrdPlan {
 }
 
 /// How far a file has come.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, crate::keep::Keep)]
 pub(crate) struct Reached {
     pub tally: Tally,
     /// Step and increment of the last output.
     pub last: (usize, usize),
 }
-
-crate::keep!(Reached { tally, last });
 
 /// Writes the `.frd` file.
 #[derive(Debug)]

@@ -16,7 +16,7 @@ use crate::time::Trial;
 const GROSS: f64 = 1.0 - 1e-9;
 
 /// Two vectors between whose components all lie that have been seen.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, crate::keep::Keep)]
 struct Range {
     low: Vec3,
     high: Vec3,
@@ -41,7 +41,7 @@ impl Range {
 }
 
 /// The cycle at hand of an interface.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub(crate) struct Loop {
     shear: Range,
     displacement: Range,
@@ -55,18 +55,6 @@ pub(crate) struct Loop {
     start: f64,
     sum: f64,
 }
-
-crate::keep!(Range { low, high });
-crate::keep!(Loop {
-    shear,
-    displacement,
-    last,
-    pressed,
-    peak,
-    sliding,
-    start,
-    sum
-});
 
 /// The part of the volume of its body that lies around each point, where loops are looked at; a mean over a body is a sum with these weights.
 pub(crate) fn shares(model: &Model) -> Vec<f64> {

@@ -36,7 +36,7 @@ pub enum Event<'a> {
 }
 
 /// The state from which a run can go on, and what is worth knowing of it.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, crate::keep::Keep)]
 pub struct Snapshot {
     /// Accepted increments.
     pub increments: usize,
@@ -49,14 +49,6 @@ pub struct Snapshot {
     /// The state, see [`Checkpoint`](crate::run::Checkpoint).
     pub state: Vec<u8>,
 }
-
-crate::keep!(Snapshot {
-    increments,
-    time,
-    step,
-    ended,
-    state
-});
 
 /// An accepted increment at a glance.
 #[derive(Debug, Clone, Copy, PartialEq)]

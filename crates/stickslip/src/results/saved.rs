@@ -15,7 +15,7 @@ use crate::error::{Error, IoError};
 use crate::io::{input, own};
 
 /// What a run was called with.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, crate::keep::Keep)]
 pub struct Source {
     /// The problem as it was run, as the text of a problem file.
     pub problem: String,
@@ -32,7 +32,7 @@ pub struct Source {
 }
 
 /// What a run has from a program, and no file has.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, crate::keep::Keep)]
 pub struct Lent {
     /// Meshes, by the names that the problem has for them, with their digests.
     pub meshes: Vec<(String, [u64; 2])>,
@@ -41,7 +41,7 @@ pub struct Lent {
 }
 
 /// How far the files of results had come.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, crate::keep::Keep)]
 pub(crate) struct Positions {
     /// Fields written, by time.
     pub fields: Vec<(f64, String)>,
@@ -56,7 +56,7 @@ pub(crate) struct Positions {
 }
 
 /// How far a file had come that grows.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, crate::keep::Keep)]
 pub(crate) struct Come {
     /// `[bytes]`
     pub length: u64,
@@ -76,7 +76,7 @@ pub(super) fn tail(mut file: &File, length: u64) -> std::io::Result<[u64; 2]> {
 }
 
 /// A checkpoint with all that is needed to go on from it.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, crate::keep::Keep)]
 pub struct Saved {
     /// What the run was called with.
     pub source: Source,
@@ -84,29 +84,6 @@ pub struct Saved {
     pub snapshot: Snapshot,
     pub(crate) positions: Positions,
 }
-
-crate::keep!(Source {
-    problem,
-    file,
-    overrides,
-    inputs,
-    cache,
-    lent
-});
-crate::keep!(Lent { meshes, laws });
-crate::keep!(Come { length, tail });
-crate::keep!(Positions {
-    fields,
-    outputs,
-    lengths,
-    columns,
-    frd
-});
-crate::keep!(Saved {
-    source,
-    snapshot,
-    positions
-});
 
 /// What a checkpoint is called until it is whole.
 pub(super) const ASIDE: &str = ".checkpoint.tmp";

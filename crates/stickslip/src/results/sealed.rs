@@ -123,16 +123,16 @@ mod tests {
 
     #[test]
     fn state_of_another_layout_is_told_from_damaged_state() {
+        #[derive(crate::keep::Keep)]
         struct Before {
             a: u64,
             b: f64,
         }
+        #[derive(crate::keep::Keep)]
         struct After {
             a: u64,
             c: f64,
         }
-        crate::keep!(Before { a, b });
-        crate::keep!(After { a, c });
         let bytes = seal(&Before { a: 1, b: 0.5 });
         let back: Before = unseal(&bytes, "it").unwrap();
         assert_eq!((back.a, back.b), (1, 0.5));

@@ -17,7 +17,7 @@ use crate::newton::condensed::CACHE_NOTE;
 use crate::newton::{Fallback, Statistics};
 
 /// What `summary.json` holds.
-#[derive(Debug, Clone, Default, Serialize)]
+#[derive(Debug, Clone, Default, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct Summary {
     /// What was run, and how it ended.
@@ -52,7 +52,8 @@ pub struct Summary {
     pub balance: EnergySummary,
     /// How good the solution is, and whether that is enough.
     pub quality: Gate,
-    /// Interfaces at the end.
+    /// Interfaces at the end, which is said again at the next one.
+    #[keep(again)]
     pub interfaces: Vec<InterfaceSummary>,
     /// Modes, and motions along them.
     #[serde(flatten)]
@@ -64,12 +65,13 @@ pub struct Summary {
 }
 
 /// What was run, and how it ended.
-#[derive(Debug, Clone, Default, Serialize)]
+#[derive(Debug, Clone, Default, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct RunOutcome {
     /// Title of the problem.
     pub title: String,
     /// Version of stickslip.
+    #[keep(again = env!("CARGO_PKG_VERSION"))]
     pub version: &'static str,
     /// How far the run has come. In the file it says `running` from the first moment on, so that a run that was killed is found out.
     pub status: Status,
@@ -80,7 +82,7 @@ pub struct RunOutcome {
 }
 
 /// How the systems of equations were solved, why so, and by whom.
-#[derive(Debug, Clone, Default, Serialize)]
+#[derive(Debug, Clone, Default, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct SolvedBy {
     /// How the systems of equations were solved.
@@ -92,7 +94,7 @@ pub struct SolvedBy {
 }
 
 /// Increments, accepted and rejected.
-#[derive(Debug, Clone, Default, Serialize)]
+#[derive(Debug, Clone, Default, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct AttemptCounts {
     /// Accepted increments.
@@ -115,7 +117,7 @@ pub struct AttemptCounts {
 }
 
 /// An explicit step at its start.
-#[derive(Debug, Clone, Default, Serialize)]
+#[derive(Debug, Clone, Default, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct ExplicitStart {
     /// Longest stable increment at the start of the last explicit step, with its safety `[time]`; 0 without one.
@@ -125,7 +127,7 @@ pub struct ExplicitStart {
 }
 
 /// Bodies that only contact can hold, on their way to where it does.
-#[derive(Debug, Clone, Default, Serialize)]
+#[derive(Debug, Clone, Default, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct FollowedBodies {
     /// Increments in which bodies that only contact can hold were moved or anchored.
@@ -135,7 +137,7 @@ pub struct FollowedBodies {
 }
 
 /// What a run took: counts, times and memory.
-#[derive(Debug, Clone, Default, Serialize)]
+#[derive(Debug, Clone, Default, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct RunCost {
     /// Counts and times of the solver.
@@ -152,11 +154,12 @@ pub struct RunCost {
     /// Pages of memory that the system gave to the process, at a microsecond or two each; 0 if the system does not tell.
     pub page_faults: u64,
     /// Threads used.
+    #[keep(again = rayon::current_num_threads())]
     pub threads: usize,
 }
 
 /// The balance of energies at the end.
-#[derive(Debug, Clone, Default, Serialize)]
+#[derive(Debug, Clone, Default, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct EnergySummary {
     /// Energies at the end.
@@ -166,7 +169,7 @@ pub struct EnergySummary {
 }
 
 /// Modes, and motions that began along them.
-#[derive(Debug, Clone, Default, Serialize)]
+#[derive(Debug, Clone, Default, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct Vibrations {
     /// Modes, by step that looked for them.
@@ -194,7 +197,7 @@ const OF_SHARING: &[&str] = &[
 ];
 
 /// Who factored condensed bodies.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct EngineSummary {
     /// Its key in the problem file; empty if nothing was condensed.
@@ -234,7 +237,7 @@ impl From<EngineReport> for EngineSummary {
 }
 
 /// How far a run has come.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub enum Status {
     /// It goes on, or was killed.
@@ -249,7 +252,7 @@ pub enum Status {
 }
 
 /// A way other than plain iteration by which an increment was tried.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct FallbackSummary {
     /// Step.
@@ -264,7 +267,7 @@ pub struct FallbackSummary {
 }
 
 /// Size of a problem.
-#[derive(Debug, Clone, Copy, Default, Serialize)]
+#[derive(Debug, Clone, Copy, Default, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct Size {
     /// Points.
@@ -278,7 +281,7 @@ pub struct Size {
 }
 
 /// Seconds by phase.
-#[derive(Debug, Clone, Copy, Default, Serialize)]
+#[derive(Debug, Clone, Copy, Default, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct Phases {
     /// Reading and meshing.
@@ -371,106 +374,3 @@ impl Summary {
         self.cost.page_faults = page_faults();
     }
 }
-
-// What a run says of its end is said again at the next one.
-crate::keep!(Summary {
-    run,
-    findings,
-    solved_by,
-    notes,
-    size,
-    attempts,
-    explicit,
-    largest_rotation,
-    loose,
-    cost,
-    balance,
-    quality,
-    vibrations,
-    fatigue,
-    last
-} and {
-    interfaces: Vec::new(),
-});
-crate::keep!(Status[Running, Done, Failed, Interrupted]);
-crate::keep!(RunOutcome {
-    title,
-    status,
-    outcome,
-    completed
-} and {
-    version: env!("CARGO_PKG_VERSION"),
-});
-crate::keep!(SolvedBy {
-    method,
-    method_reason,
-    engine
-});
-crate::keep!(AttemptCounts {
-    increments,
-    iterations,
-    events,
-    cutbacks,
-    cycles_taken_back,
-    cutback_reasons,
-    fallbacks,
-    friction_solvers
-});
-crate::keep!(ExplicitStart {
-    stable_increment,
-    mass_added
-});
-crate::keep!(FollowedBodies {
-    followed,
-    artificial_energy
-});
-crate::keep!(RunCost {
-    solver,
-    phases,
-    linear_solve,
-    relative_to_linear,
-    peak_memory,
-    page_faults
-} and {
-    threads: rayon::current_num_threads(),
-});
-crate::keep!(EnergySummary {
-    energy,
-    energy_quality
-});
-crate::keep!(Vibrations { modes, growth });
-crate::keep!(FallbackSummary {
-    step,
-    from,
-    to,
-    tried
-});
-crate::keep!(EngineSummary {
-    name,
-    version,
-    ranks,
-    reproducible,
-    memory_of_rank,
-    memory_of_all,
-    cells_of_ranks,
-    bytes_of_ranks,
-    entries_dealt
-});
-crate::keep!(Size {
-    points,
-    cells,
-    dofs,
-    contact_points
-});
-crate::keep!(Phases {
-    read,
-    assemble,
-    order,
-    factor,
-    condense,
-    iterate,
-    contact,
-    recover,
-    write,
-    total
-});

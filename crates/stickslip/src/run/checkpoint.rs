@@ -46,7 +46,7 @@ use crate::solve::state::SolverState;
 use crate::time::Pace;
 
 /// All state from which an analysis goes on.
-#[derive(Clone)]
+#[derive(Clone, crate::keep::Keep)]
 pub struct Checkpoint {
     pub(super) frame: Frame,
     pub(super) position: Position,
@@ -61,7 +61,7 @@ pub struct Checkpoint {
 }
 
 /// How far the steps are.
-#[derive(Clone)]
+#[derive(Clone, crate::keep::Keep)]
 pub(super) struct Position {
     pub next: usize,
     pub running: Option<Standing>,
@@ -72,7 +72,7 @@ pub(super) struct Position {
 /// Where the increments of the step at hand stand: their length, how many were accepted, the attempt, and what [`Increments`] knows of the balance.
 ///
 /// [`Increments`]: super::position::Increments
-#[derive(Clone)]
+#[derive(Clone, crate::keep::Keep)]
 pub(super) struct Standing {
     pub pace: Pace,
     pub accepted: usize,
@@ -86,46 +86,13 @@ pub(super) struct Standing {
 }
 
 /// The state that attempts change.
-#[derive(Clone)]
+#[derive(Clone, crate::keep::Keep)]
 pub(crate) struct Working {
     pub(super) interfaces: Vec<Memory>,
     pub(super) couplings: CouplingsState,
     pub(super) explicit: Option<ExplicitState>,
     pub(super) solver: SolverState,
 }
-
-crate::keep!(Checkpoint {
-    frame,
-    position,
-    pending,
-    recovered,
-    summary,
-    watches,
-    loops,
-    working
-});
-crate::keep!(Position {
-    next,
-    running,
-    over
-});
-crate::keep!(Standing {
-    pace,
-    accepted,
-    attempt,
-    opened,
-    vain,
-    too_long,
-    tight,
-    failed,
-    jumps
-});
-crate::keep!(Working {
-    interfaces,
-    couplings,
-    explicit,
-    solver
-});
 
 impl Checkpoint {
     /// Its bytes.

@@ -24,15 +24,13 @@ const UNSURE: f64 = 2.414_213_562_373_095;
 pub(super) type Place = (bool, f64);
 
 /// What has been worn off in a step, and by how much jumps have made it wrong, by interface and place `[m³]`.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub(super) struct JumpError {
     worn: Vec<Vec<f64>>,
     off: Vec<Vec<f64>>,
     /// By how much what a cycle wears off changes from one to the next.
     change: Vec<Vec<f64>>,
 }
-
-crate::keep!(JumpError { worn, off, change });
 
 /// By how much jumps are off, relative to the volume that is worn off and to the greatest depth, the worst of all surfaces `[-]`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

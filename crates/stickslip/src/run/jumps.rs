@@ -6,7 +6,7 @@ use super::jump_error::JumpError;
 pub(super) type Amounts = Vec<Vec<f64>>;
 
 /// What is known of the blocks of a step.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub(super) struct Jumps {
     /// The next is to stand for so many cycles; where something wears, it and the one after it together.
     pub wish: f64,
@@ -25,7 +25,7 @@ pub(super) struct Jumps {
 }
 
 /// A jump that is tried as a whole and as two halves: what both wear off tells the error.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub(super) struct Halved {
     /// Cycles that it stands for.
     pub cycles: usize,
@@ -42,22 +42,6 @@ impl Halved {
         [first, self.cycles - first]
     }
 }
-
-crate::keep!(Halved {
-    cycles,
-    whole,
-    first
-});
-crate::keep!(Jumps {
-    wish,
-    start,
-    rates,
-    changes,
-    kept,
-    rejected,
-    trial,
-    made
-});
 
 impl Jumps {
     pub(super) fn note_change(&mut self, change: f64) {

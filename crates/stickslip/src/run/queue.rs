@@ -12,7 +12,7 @@ use crate::system::StepFailure;
 use crate::time::Trial;
 
 /// An accepted increment that nobody has been told of.
-#[derive(Clone)]
+#[derive(Clone, crate::keep::Keep)]
 pub(crate) struct Pending {
     pub trial: Trial,
     pub accepted: Accepted,
@@ -72,17 +72,6 @@ impl Pending {
     }
 }
 
-crate::keep!(Pending {
-    trial,
-    accepted,
-    increment,
-    attempt,
-    fields,
-    row,
-    seen,
-    after,
-    found
-});
 /// An increment that was accepted and taken back, with all that came after it.
 pub(crate) struct TakenBack {
     pub(super) trial: Trial,
@@ -92,16 +81,10 @@ pub(crate) struct TakenBack {
 }
 
 /// An attempt that failed.
-#[derive(Clone)]
+#[derive(Clone, crate::keep::Keep)]
 pub(super) struct Failed {
     pub(super) trial: Trial,
     /// Counts from before it.
     pub(super) counters: doctor::Counters,
     pub(super) failure: StepFailure,
 }
-
-crate::keep!(Failed {
-    trial,
-    counters,
-    failure
-});

@@ -6,7 +6,7 @@ use crate::system::{Rate, Stage, State, Tally};
 use crate::time::Trial;
 
 /// What an increment took.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, crate::keep::Keep)]
 pub struct Effort {
     /// Newton iterations.
     pub iterations: usize,
@@ -18,15 +18,8 @@ pub struct Effort {
     pub tally: Tally,
 }
 
-crate::keep!(Effort {
-    iterations,
-    rounds,
-    residual,
-    tally
-});
-
 /// An increment that may be accepted.
-#[derive(Default, Clone)]
+#[derive(Default, Clone, crate::keep::Keep)]
 pub(crate) struct Accepted {
     pub state: State,
     /// Out-of-balance forces: reactions at fixed dofs.
@@ -80,20 +73,3 @@ impl Accepted {
         }
     }
 }
-
-crate::keep!(Accepted {
-    state,
-    forces,
-    contact,
-    external,
-    flow,
-    rate,
-    kinetic,
-    strain,
-    internal,
-    travel,
-    effort,
-    solver,
-    followed,
-    hard
-});

@@ -56,7 +56,7 @@ pub(crate) struct Condensed {
 }
 
 /// An increment whose interior is not known yet: its loads and the displacements of the candidates.
-#[derive(Clone)]
+#[derive(Clone, crate::keep::Keep)]
 pub(crate) struct Candidates {
     pub(super) amplitudes: Amplitudes,
     pub(super) displacements: Vec<f64>,
@@ -136,9 +136,3 @@ impl Condenser {
         }
     }
 }
-
-crate::keep!(Candidates {
-    amplitudes,
-    displacements,
-    contact
-});

@@ -14,7 +14,7 @@ use crate::system::{Cause, Culprit, Force, StepFailure};
 use crate::time::Trial;
 
 /// What is known of floating bodies: those that only contact can hold.
-#[derive(Default, Clone)]
+#[derive(Default, Clone, crate::keep::Keep)]
 pub(crate) struct Floating {
     pub(super) anchors: Option<Anchors>,
     /// The step for which bodies were looked at, and those that interfaces may hold.
@@ -37,16 +37,16 @@ pub(crate) struct Floating {
     pub(super) left: f64,
     /// A body went astray in the last attempt.
     pub(super) astray: bool,
+    /// Where the increment at hand began, before bodies were moved.
+    pub(super) origin: Option<Origin>,
     /// The largest load along free motions so far, body by body.
     pub(super) pushed: Vec<f64>,
     /// The bodies that nothing presses any more, and of which that was said in this step.
     pub(super) told: Vec<usize>,
-    /// Where the increment at hand began, before bodies were moved.
-    pub(super) origin: Option<Origin>,
 }
 
 /// Where an increment began in which bodies are moved or followed.
-#[derive(Clone)]
+#[derive(Clone, crate::keep::Keep)]
 pub(super) struct Origin {
     pub(super) u: Vec<f64>,
     /// Gaps that bodies may have to close `[m]`: the largest of each interface, all together, and how far obstacles move in the increment.
@@ -352,21 +352,3 @@ fn thrown(scene: Scene, astray: Astray, trial: Trial) -> StepFailure {
         "smaller increments; a law that presses across the gap, or points that are pressed in far by one increment, can throw a body that nothing else holds: support it, or hold it by weak springs (`[load.NAME] spring`)",
     )
 }
-
-crate::keep!(Floating {
-    anchors,
-    known,
-    places,
-    stay,
-    vain,
-    moved,
-    firmness,
-    weak,
-    fresh,
-    left,
-    astray,
-    origin,
-    pushed,
-    told
-});
-crate::keep!(Origin { u, gaps, size });

@@ -43,7 +43,7 @@ struct Matrix {
 }
 
 /// What [`Inertia`] was made of: enough to make it again, with the same bits.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, crate::keep::Keep)]
 pub(crate) struct InertiaRecipe {
     mass_kind: MassKind,
     redistributed: Vec<bool>,
@@ -51,26 +51,13 @@ pub(crate) struct InertiaRecipe {
     keys: u64,
 }
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, crate::keep::Keep)]
 struct MatrixRecipe {
     key: u64,
     dt: f64,
     alphas: Alphas,
     weight: f64,
 }
-
-crate::keep!(InertiaRecipe {
-    mass_kind,
-    redistributed,
-    matrices,
-    keys
-});
-crate::keep!(MatrixRecipe {
-    key,
-    dt,
-    alphas,
-    weight
-});
 
 /// Most matrices that are kept.
 const MOST_MATRICES: usize = 4;

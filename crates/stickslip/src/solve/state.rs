@@ -17,7 +17,7 @@ use crate::newton::{Factors, FactorsRecipe, Statistics, describe};
 use crate::system::{Cause, State, StepFailure};
 
 /// What a solver takes along.
-#[derive(Clone)]
+#[derive(Clone, crate::keep::Keep)]
 pub(crate) struct SolverState {
     method: Solution,
     multigrid: bool,
@@ -38,7 +38,7 @@ pub(crate) struct SolverState {
 }
 
 /// Where a quasi-static analysis of condensed bodies stands.
-#[derive(Clone)]
+#[derive(Clone, crate::keep::Keep)]
 struct AtRest {
     bodies: Bodies,
     patterns: PatternsRecipe,
@@ -48,51 +48,19 @@ struct AtRest {
 }
 
 /// Bodies that were condensed with the matrix of an increment in motion.
-#[derive(Clone)]
+#[derive(Clone, crate::keep::Keep)]
 struct InMotion {
     key: u64,
     bodies: Bodies,
 }
 
 /// What bodies were condensed for, and the factor of their contact.
-#[derive(Clone)]
+#[derive(Clone, crate::keep::Keep)]
 struct Bodies {
     held: Vec<bool>,
     kept: Vec<bool>,
     reduced: ReducedRecipe,
 }
-
-crate::keep!(SolverState {
-    method,
-    multigrid,
-    notes,
-    called,
-    reason,
-    statistics,
-    factors,
-    inertia,
-    keys,
-    floating,
-    kept,
-    widened,
-    decided,
-    largest_forces,
-    at_rest,
-    moving
-});
-crate::keep!(AtRest {
-    bodies,
-    patterns,
-    state,
-    carried,
-    course
-});
-crate::keep!(InMotion { key, bodies });
-crate::keep!(Bodies {
-    held,
-    kept,
-    reduced
-});
 
 impl SolverState {
     /// Displacements at the end of the last increment of condensed bodies at rest, known at candidates and where prescribed.

@@ -12,7 +12,7 @@ pub struct Increments {
 }
 
 /// An increment to try.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, crate::keep::Keep)]
 pub struct Trial {
     /// Start.
     pub from: f64,
@@ -144,14 +144,12 @@ impl Stepper {
 }
 
 /// Where the increments of a step stand: all that a [`Stepper`] knows beyond the step.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, crate::keep::Keep)]
 pub struct Pace {
     now: f64,
     wish: f64,
     easy: usize,
 }
-
-crate::keep!(Pace { now, wish, easy });
 
 impl Stepper {
     /// Where it stands.
@@ -174,8 +172,6 @@ impl Stepper {
         }
     }
 }
-
-crate::keep!(Trial { from, to });
 
 #[cfg(test)]
 mod tests {

@@ -45,7 +45,7 @@ pub struct ExactForce {
 }
 
 /// How an equation is enforced.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, crate::keep::Keep)]
 pub(super) struct Hold {
     /// Stiffness by which its multiplier is eliminated `[N/m]`.
     pub stiffness: f64,
@@ -54,7 +54,7 @@ pub(super) struct Hold {
 }
 
 /// Multipliers of an attempt.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub(super) struct Iterate {
     /// At the last iterate, with what the equations are off there, and now. Gaps that are open are off by infinity; the multiplier of a dashpot is its
     /// force.

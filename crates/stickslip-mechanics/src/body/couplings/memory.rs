@@ -1,7 +1,7 @@
 //! What couplings know of accepted increments.
 
 /// What couplings knew after an accepted increment.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, crate::keep::Keep)]
 pub struct CouplingsMemory {
     /// Multipliers of equations, by row `[N]`.
     pub(super) multipliers: Vec<f64>,
@@ -33,14 +33,3 @@ impl CouplingsMemory {
         self.rest.get(i).copied().unwrap_or(0.0)
     }
 }
-
-crate::keep!(CouplingsMemory {
-    multipliers,
-    forces,
-    start,
-    targets,
-    rest,
-    stored,
-    work,
-    damped
-});

@@ -2,27 +2,13 @@
 
 use super::all::{Couplings, Hold, Iterate};
 
-crate::keep!(Hold { stiffness, idle });
-crate::keep!(Iterate {
-    last,
-    off,
-    now,
-    off_now
-});
-
 /// All that couplings know beyond their definition and what accepted increments have left.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, crate::keep::Keep)]
 pub struct CouplingsState {
     hold: Vec<Hold>,
     iterate: Iterate,
     explicit: bool,
 }
-
-crate::keep!(CouplingsState {
-    hold,
-    iterate,
-    explicit
-});
 
 impl Couplings {
     /// All that they know beyond their definition and what accepted increments have left.

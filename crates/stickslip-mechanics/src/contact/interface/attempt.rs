@@ -6,7 +6,7 @@ use crate::contact::response::Status;
 use crate::math::{Vec3, dot};
 
 /// The course of an attempt. An attempt that is given up leaves no trace: the next one begins from the history.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub struct Attempt {
     pub(in crate::contact) multipliers: Vec<Multiplier>,
     /// Status changes, by point.
@@ -42,7 +42,7 @@ impl Attempt {
 }
 
 /// Multipliers of a contact point in the current attempt.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, crate::keep::Keep)]
 pub(in crate::contact) struct Multiplier {
     pub pressure: f64,
     pub shear: Vec3,
@@ -79,7 +79,7 @@ const CHATTERS: usize = 3;
 const RETURNS: usize = 3;
 
 /// Status changes of a point over the iterations of an attempt.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, crate::keep::Keep)]
 pub(in crate::contact) struct Flips {
     pub count: usize,
     /// How often the direction of slip was reversed, and the shear traction when it slid last.
@@ -140,39 +140,6 @@ impl Flips {
         self.count + self.reversals >= CHATTERS
     }
 }
-
-crate::keep!(Attempt {
-    multipliers,
-    flips,
-    changed,
-    tentative,
-    before_first_contact,
-    accepted_gap,
-    tightened,
-    violation
-});
-crate::keep!(Multiplier {
-    pressure,
-    shear,
-    normal,
-    centre_pressure,
-    centre_shear,
-    centre_normal,
-    base,
-    frame,
-    frame_normal
-});
-crate::keep!(Flips {
-    count,
-    reversals,
-    shear,
-    last,
-    over,
-    left,
-    returned,
-    facets,
-    returns
-});
 
 #[cfg(test)]
 mod tests {

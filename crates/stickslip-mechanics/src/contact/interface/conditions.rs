@@ -3,7 +3,7 @@
 use crate::math::{Vec3, scale};
 
 /// Sliding that lasts: where the surface of the primary moves by itself, friction sees that motion alone, and points slide all the time.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, crate::keep::Keep)]
 pub struct Steady {
     /// A place on the axis about which the surface turns, beside the velocity of its belt `[m]`.
     pub centre: Vec3,
@@ -13,14 +13,8 @@ pub struct Steady {
     pub velocity: Vec3,
 }
 
-crate::keep!(Steady {
-    centre,
-    turning,
-    velocity
-});
-
 /// Which points of an interface take part.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub struct CandidatePoints {
     /// Points that do not; empty where all do.
     pub(in crate::contact) excluded: Vec<bool>,
@@ -28,10 +22,8 @@ pub struct CandidatePoints {
     pub(in crate::contact) inner: Vec<bool>,
 }
 
-crate::keep!(CandidatePoints { excluded, inner });
-
 /// What holds in an attempt: who evaluates for something else does so under conditions of its own.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, crate::keep::Keep)]
 pub struct Conditions {
     /// Mass per area behind each point `[kg/m²]`; empty where it plays no part.
     pub inertia: Vec<f64>,
@@ -80,12 +72,3 @@ impl Conditions {
         1.0 + self.skipped
     }
 }
-
-crate::keep!(Conditions {
-    inertia,
-    impulses,
-    candidates,
-    skipped,
-    steady,
-    pace
-});

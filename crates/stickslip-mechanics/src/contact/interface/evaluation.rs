@@ -78,7 +78,7 @@ impl Evaluations {
 }
 
 /// What an evaluation of a point leaves for the length of an explicit increment after it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, crate::keep::Keep)]
 pub(in crate::contact) struct Trace {
     /// The largest change of a traction with its own gap or slip `[Pa/m]`, and with the velocity along it `[Pa s/m]`.
     slope: f64,
@@ -87,13 +87,6 @@ pub(in crate::contact) struct Trace {
     over: bool,
     sides: Vec<(usize, f64)>,
 }
-
-crate::keep!(Trace {
-    slope,
-    viscosity,
-    over,
-    sides
-});
 
 /// What a law is asked at a point.
 #[derive(Debug, Clone, Copy)]

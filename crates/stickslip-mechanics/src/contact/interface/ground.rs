@@ -37,7 +37,7 @@ struct Sample {
 }
 
 /// The depths of a ground.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, crate::keep::Keep)]
 pub(in crate::contact) struct Depths {
     /// By place `[m]`.
     pub places: BTreeMap<Place, f64>,
@@ -46,12 +46,6 @@ pub(in crate::contact) struct Depths {
     /// The part of what the other side loses on the way of each point that lay beneath it at the end of the last increment; empty before there was one.
     pub felt: Vec<f64>,
 }
-
-crate::keep!(Depths {
-    places,
-    taken,
-    felt
-});
 
 /// Where the matter of a primary is: the frame of an obstacle, and by how much it has moved in it since it was meshed.
 pub(in crate::contact) struct Under {

@@ -8,7 +8,7 @@ use crate::math::Vec3;
 use crate::system::Energy;
 
 /// What commits have written. Everything that is reported follows from it, from the definition of the interface and from displacements.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, crate::keep::Keep)]
 pub struct History {
     /// By contact point.
     pub(in crate::contact) points: Vec<PointHistory>,
@@ -41,7 +41,7 @@ pub struct History {
 }
 
 /// Committed history of a contact point.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, crate::keep::Keep)]
 pub(in crate::contact) struct PointHistory {
     pub pressure: f64,
     /// Shear traction on the secondary.
@@ -76,7 +76,7 @@ pub(in crate::contact) struct PointHistory {
 }
 
 /// Nodes of the primary that points lay over, with their weights there.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, crate::keep::Keep)]
 pub(in crate::contact) struct Opposite {
     /// Where the nodes of each point end.
     ends: Vec<usize>,
@@ -101,7 +101,7 @@ impl Opposite {
 }
 
 /// The gaps from which an interface counts.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, crate::keep::Keep)]
 pub(in crate::contact) struct Origin {
     /// It has begun to act.
     pub begun: bool,
@@ -117,7 +117,7 @@ pub(in crate::contact) struct Origin {
 }
 
 /// What is wrong with the shear of an interface after an increment, and what that is relative to.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, crate::keep::Keep)]
 pub(in crate::contact) struct Cone {
     /// Largest amount by which the shear is not what friction says `[Pa]`.
     pub worst: f64,
@@ -168,52 +168,6 @@ impl History {
         points * point + opposite * size_of::<(usize, f64)>() + nodes * node
     }
 }
-
-crate::keep!(History {
-    points,
-    acting,
-    opposite,
-    start,
-    springs,
-    rest,
-    energy,
-    worn,
-    nodal,
-    traces,
-    ground,
-    pushed,
-    creep,
-    cone
-});
-crate::keep!(PointHistory {
-    pressure,
-    shear,
-    slip,
-    moved,
-    gap,
-    normal,
-    status,
-    facet,
-    area,
-    damping,
-    dissipated,
-    worn,
-    hollow,
-    path,
-    spent,
-    limit,
-    sheared,
-    stiffness
-});
-crate::keep!(Opposite { ends, nodes });
-crate::keep!(Origin {
-    begun,
-    span,
-    offset,
-    glued,
-    overlap
-});
-crate::keep!(Cone { worst, limit });
 
 #[cfg(test)]
 mod tests {

@@ -18,7 +18,7 @@ use crate::math::Vec3;
 /// Of the [`Cache`] it is the places for which facets were looked for last, as which facets a point may meet follows from them, and they are as old as the
 /// search, not those of the accepted state; and of the last evaluation how fast tractions changed and which nodes
 /// took part, by which explicit increments get their length. All else that is kept there is made for every evaluation, or is a function of the definition.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub struct Memory {
     attempt: Attempt,
     conditions: Conditions,
@@ -31,16 +31,6 @@ pub struct Memory {
     /// Pairs or integrals of the reference configuration were made.
     paired: bool,
 }
-
-crate::keep!(Memory {
-    attempt,
-    conditions,
-    searched,
-    faces_searched,
-    merged,
-    last,
-    paired
-});
 
 /// What it takes along beside its history.
 pub fn memory(interface: &Interface, conditions: &Conditions) -> Memory {

@@ -4,7 +4,7 @@ use crate::contact::interface::view::ContactView;
 use crate::contact::response::Status;
 
 /// How finely contact is resolved.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, crate::keep::Keep)]
 pub struct Resolution {
     /// Points in contact.
     pub points: usize,
@@ -47,9 +47,3 @@ pub fn resolution(contact: ContactView) -> Option<Resolution> {
         resolved: if points == count { 1.0 } else { resolved / all },
     })
 }
-
-crate::keep!(Resolution {
-    points,
-    of,
-    resolved
-});

@@ -1,7 +1,7 @@
 //! What laws answer: traction with its derivatives, and status.
 
 /// Status of a contact point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, crate::keep::Keep)]
 pub enum Status {
     /// Not in contact.
     #[default]
@@ -38,5 +38,3 @@ pub struct Response {
     /// The part of the pressure that damping adds `[Pa]`, negative while surfaces part.
     pub damping: f64,
 }
-
-crate::keep!(Status[Open, Stick, Slip]);

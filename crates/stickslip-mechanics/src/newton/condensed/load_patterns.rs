@@ -14,7 +14,7 @@ pub struct LoadPatterns {
 }
 
 /// A unit vector over all dofs and what the factors make of the forces it brings.
-#[derive(Debug)]
+#[derive(Debug, crate::keep::Keep)]
 struct Pattern {
     unit: Arc<Vec<f64>>,
     root: Vec<f64>,
@@ -22,7 +22,7 @@ struct Pattern {
 }
 
 /// Loads and prescribed displacements as amplitudes of patterns.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub struct Amplitudes {
     loads: Vec<f64>,
     motions: Vec<f64>,
@@ -36,25 +36,12 @@ const MOST: usize = 24;
 /// What is left of a vector, relative to it, when it counts as made up of the patterns: rounding.
 const ROUNDING: f64 = 4e-15;
 
-crate::keep!(Pattern {
-    unit,
-    root,
-    interior
-});
-crate::keep!(Amplitudes {
-    loads,
-    motions,
-    others
-});
-
 /// The patterns met so far, without what the factors make of them.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub struct PatternsRecipe {
     loads: Vec<Arc<Vec<f64>>>,
     motions: Vec<Arc<Vec<f64>>>,
 }
-
-crate::keep!(PatternsRecipe { loads, motions });
 
 impl LoadPatterns {
     /// The patterns met so far.

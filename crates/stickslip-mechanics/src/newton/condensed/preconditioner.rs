@@ -25,15 +25,13 @@ pub(super) struct Preconditioner {
 }
 
 /// What the factor was made of beside the bodies.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub(super) struct Factored {
     rows: Arc<Vec<Rows>>,
     count: usize,
     /// Where it was made of a [`GapMatrix`]: when each point had come.
     order: Option<Vec<usize>>,
 }
-
-crate::keep!(Factored { rows, count, order });
 
 /// Amplification `C W Bᵀ` up to which the factor may be in single precision: of its seven digits three are left.
 const SINGLE: f64 = 1e4;

@@ -110,7 +110,7 @@ impl Attempt {
 }
 
 /// What a [`ReducedSystem`] was made of: enough to make it again, with the same bits.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub struct ReducedRecipe {
     active: Option<Vec<usize>>,
     factored: Option<Factored>,
@@ -118,13 +118,6 @@ pub struct ReducedRecipe {
     /// The points of the compliance of gaps and slips in their order.
     gaps: Option<Vec<Rows>>,
 }
-
-crate::keep!(ReducedRecipe {
-    active,
-    factored,
-    seen,
-    gaps
-});
 
 impl ReducedSystem {
     /// What it was made of.

@@ -4,7 +4,7 @@ use crate::math::vector::dot;
 use crate::math::{identity, inverse, transpose_vec};
 
 /// The rows of one contact point: gradients of its gap and slips over the active dofs, and how the forces along them change.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, crate::keep::Keep)]
 pub(super) struct Rows {
     /// Positions in the active list.
     pub at: Vec<u32>,
@@ -175,10 +175,3 @@ pub(super) fn at_active<'a>(
         .filter(|(at, _)| **at != NONE)
         .map(|(&at, &value)| (at as usize, value))
 }
-
-crate::keep!(Rows {
-    at,
-    first,
-    gradients,
-    changes
-});

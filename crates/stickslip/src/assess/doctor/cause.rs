@@ -159,7 +159,7 @@ impl fmt::Display for DoctorCause {
     }
 }
 
-crate::keep!(DoctorCause = one of DoctorCause::ALL, by |cause| cause.name());
+stickslip_base::keep_by_name!(DoctorCause, one of DoctorCause::ALL, by |cause| cause.name());
 
 #[cfg(test)]
 mod tests {

@@ -5,11 +5,12 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::cause::DoctorCause;
+use crate::keep::Keep;
 use crate::math::Vec3;
 
 /// How bad it is.
 #[derive(
-    Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
+    Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, Keep,
 )]
 #[serde(rename_all = "kebab-case")]
 pub enum Severity {
@@ -33,7 +34,7 @@ impl fmt::Display for Severity {
 }
 
 /// What kind of thing is guilty.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize, Deserialize, Keep)]
 #[serde(rename_all = "kebab-case")]
 pub enum What {
     /// A node of a mesh, or a contact point that hangs on several.
@@ -65,7 +66,7 @@ impl fmt::Display for What {
 }
 
 /// A place to look at.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct Guilty {
     /// What it is.
@@ -150,7 +151,7 @@ impl fmt::Display for Guilty {
 pub const MOST_GUILTY: usize = 10;
 
 /// A finding of the doctor.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct Finding {
     /// What is wrong.
@@ -237,28 +238,6 @@ impl fmt::Display for Finding {
         Ok(())
     }
 }
-
-crate::keep!(Severity[Note, Warning, Error]);
-crate::keep!(What[Node, Facet, Cell, Body, Interface, Key]);
-crate::keep!(Guilty {
-    what,
-    name,
-    id,
-    body,
-    interface,
-    position,
-    remark
-});
-crate::keep!(Finding {
-    cause,
-    severity,
-    message,
-    guilty,
-    tried,
-    advice,
-    step,
-    time
-});
 
 #[cfg(test)]
 mod tests {

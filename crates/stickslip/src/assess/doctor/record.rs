@@ -8,18 +8,12 @@ use crate::newton::Statistics;
 const MOST_FINDINGS: usize = 200;
 
 /// What the doctor has to know of an attempt from before it began.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, crate::keep::Keep)]
 pub(crate) struct Counters {
     pub(super) iterations: usize,
     pub(super) fallbacks: usize,
     pub(super) augmentations: usize,
 }
-
-crate::keep!(Counters {
-    iterations,
-    fallbacks,
-    augmentations
-});
 
 impl Counters {
     /// Counts at the start of an attempt.

@@ -13,7 +13,7 @@ use crate::math::Vec3;
 use crate::model::Body;
 
 /// What is remembered of an interface.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub(crate) struct Watch {
     /// The largest force so far `[N]`, its time and how finely contact was resolved then.
     force: f64,
@@ -32,7 +32,7 @@ pub(crate) struct Watch {
 }
 
 /// The largest pressure of an interface over a run, or the largest traction of tied surfaces.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct Peak {
     /// The pressure or traction `[Pa]`; 0 where nothing ever acted.
@@ -303,16 +303,3 @@ fn coarse(interface: &InterfaceDefinition, watch: &Watch) -> Option<Finding> {
     );
     Some(finding)
 }
-
-crate::keep!(Watch {
-    force,
-    time,
-    resolution,
-    acted,
-    turn,
-    turned_at,
-    peak,
-    carried_at,
-    carriers
-});
-crate::keep!(Peak { value, at, time });

@@ -11,15 +11,13 @@ use crate::io::{own, write_atomically};
 pub const END: &[u8] = b" 9999\n";
 
 /// How much there is in a file.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, crate::keep::Keep)]
 pub struct Tally {
     /// Outputs.
     pub outputs: usize,
     /// Blocks of values.
     pub blocks: usize,
 }
-
-crate::keep!(Tally { outputs, blocks });
 
 /// A file to which outputs are added. It is whole after each.
 #[derive(Debug)]

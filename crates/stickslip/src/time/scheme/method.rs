@@ -5,7 +5,7 @@
 /// Balance is asked for at a stage between the ends of the increment,
 /// `M a_m + C v_f + f(u_f) = F_f` with `x_f = (1 - α_f) x₁ + α_f x₀` and `a_m = (1 - α_m) a₁ + α_m a₀`, and displacements and velocities follow
 /// [`newmark_1959`](crate::references::newmark_1959).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, crate::keep::Keep)]
 pub struct Alphas {
     /// Weight of the old acceleration.
     pub alpha_m: f64,
@@ -51,10 +51,3 @@ pub trait Scheme: Send + Sync {
     /// What is wrong with the parameters, as `(key, message)`; empty if nothing.
     fn faults(&self) -> Vec<(&'static str, String)>;
 }
-
-crate::keep!(Alphas {
-    alpha_m,
-    alpha_f,
-    beta,
-    gamma
-});

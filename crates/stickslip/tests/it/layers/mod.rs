@@ -72,15 +72,17 @@ fn workspace() -> PathBuf {
         .to_path_buf()
 }
 
-/// All crates of the workspace by the name under which code imports them, with their folder `src`.
+/// All crates, those of `tools` too, by the name under which code imports them, with their folder `src`.
 fn crates() -> BTreeMap<String, PathBuf> {
     let folder = |path: PathBuf| {
         let name = path.file_name()?.to_string_lossy().replace('-', "_");
         Some((name, path.join("src"))).filter(|(_, src)| src.is_dir())
     };
-    let entries = std::fs::read_dir(workspace().join("crates")).expect("the folder of crates");
-    let mut paths: Vec<PathBuf> = entries.map(|e| e.expect("an entry").path()).collect();
-    paths.push(workspace().join("xtask"));
+    let mut paths = vec![workspace().join("xtask")];
+    for all in ["crates", "tools"] {
+        let entries = std::fs::read_dir(workspace().join(all)).expect("a folder of crates");
+        paths.extend(entries.map(|e| e.expect("an entry").path()));
+    }
     paths.into_iter().filter_map(folder).collect()
 }
 

@@ -9,8 +9,8 @@ use std::process::{Command, Stdio};
 use stickslip_audit::csv;
 use stickslip_audit::draw;
 
-use crate::examples;
-use crate::workspace;
+use xtask::examples;
+use xtask::workspace;
 
 /// A run is given up after this time `[s]`, and its digest compared with nothing.
 const PATIENCE: u64 = 300;

@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use serde_json::Value;
 
 use super::cpu::{Run, measure};
-use crate::workspace;
+use xtask::workspace;
 
 /// Where the comparison runs.
 pub struct Bench {

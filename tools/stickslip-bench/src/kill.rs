@@ -16,8 +16,8 @@ use serde_json::Value;
 use stickslip_audit::draw::Random;
 
 use crate::digests::all_files;
-use crate::examples::name;
-use crate::workspace;
+use xtask::examples::name;
+use xtask::workspace;
 
 /// Kills of one run at most.
 const MOST: usize = 5;
@@ -337,7 +337,7 @@ fn torment(
 }
 
 fn checkpoints(folder: &Path) -> Vec<PathBuf> {
-    let mut all = crate::examples::list(folder).unwrap_or_default();
+    let mut all = xtask::examples::list(folder).unwrap_or_default();
     all.retain(|path| name(path).starts_with("checkpoint_"));
     all
 }

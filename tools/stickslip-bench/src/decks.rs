@@ -7,8 +7,8 @@ mod page;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::workspace;
 use outcome::{Outcome, Variant};
+use xtask::workspace;
 
 /// Runs all decks of a folder that holds `NAME.inp` and `NAME.dat.ref`.
 pub fn run(arguments: &[String]) -> Result<(), String> {

@@ -8,7 +8,7 @@ use std::process::{Command, Stdio};
 use serde_json::Value;
 
 use crate::peers::table::Table;
-use crate::workspace;
+use xtask::workspace;
 
 /// Runs all cases and prints a table.
 pub fn measure() -> Result<(), String> {

@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 use stickslip_audit::draw::Random;
 
-use crate::workspace::{self, Scratch};
+use xtask::workspace::{self, Scratch};
 
 /// What stands in place of each number.
 const VALUES: [&str; 9] = [

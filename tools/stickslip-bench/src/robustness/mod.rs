@@ -12,8 +12,8 @@ use stickslip_audit::draw;
 use stickslip_audit::mix::pair;
 use stickslip_audit::verdict::Verdict;
 
-use crate::workspace;
 use entry::Entry;
+use xtask::workspace;
 
 /// What a problem may take; one takes seconds.
 const LIMIT: Duration = Duration::from_secs(60);

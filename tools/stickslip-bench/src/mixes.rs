@@ -9,7 +9,7 @@ use stickslip_audit::verdict::Verdict;
 
 use crate::robustness::entry::{self, Entry};
 use crate::robustness::{outcome, summary};
-use crate::workspace;
+use xtask::workspace;
 
 /// What a run may take; one takes a second.
 const LIMIT: Duration = Duration::from_secs(60);
