@@ -16,7 +16,7 @@ const NUMBERS: [u64; 30] = [
 ];
 
 /// Series and numbers of others that were wrong, disagreed or did not solve once.
-const ONCE_WRONG: [(u64, u64); 19] = [
+const ONCE_WRONG: [(u64, u64); 24] = [
     (4207, 55),
     (4207, 128),
     (4207, 148),
@@ -36,6 +36,11 @@ const ONCE_WRONG: [(u64, u64); 19] = [
     (5501, 887),
     (5501, 941),
     (6007, 377),
+    (9102, 294),
+    (9102, 741),
+    (9104, 47),
+    (9104, 164),
+    (9105, 187),
 ];
 
 /// Runs the binary; its exit code.

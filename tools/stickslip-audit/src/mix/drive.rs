@@ -345,8 +345,7 @@ fn head(s: &mut Sheet, how: &str) {
     let mut keys = format!("point = {at}");
     if s.has("explicit") || s.has("implicit-explicit") {
         let solid = s.solid();
-        let unit = s.view.length.powi(if s.plane() { 2 } else { 3 });
-        let mass = 0.2 * s.view.density * unit;
+        let mass = 0.2 * s.mass_unit();
         let turns = number(0.05 * mass * s.view.length * s.view.length);
         let turns = if solid {
             format!("{turns}, {turns}, {turns}")

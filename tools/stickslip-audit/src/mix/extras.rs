@@ -81,12 +81,7 @@ pub const FEATURES: &[Feature] = &[
         0.7,
         &["modes", "implicit", "explicit", "complex-modes"],
         |s, _| {
-            let unit = if s.solid() {
-                s.view.length.powi(3)
-            } else {
-                s.view.length.powi(2)
-            };
-            let mass = number(0.05 * s.view.density * unit);
+            let mass = number(0.05 * s.mass_unit());
             let set = corner(s, "upper", true);
             s.table(format!("mass.extra = {{ set = \"{set}\", mass = {mass} }}"));
         },

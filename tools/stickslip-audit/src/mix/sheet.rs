@@ -262,6 +262,12 @@ impl Sheet {
         }
     }
 
+    /// The unit of mass, in the plane for the thickness 1: a density on a volume.
+    pub fn mass_unit(&self) -> f64 {
+        let axes = if self.plane() { 2 } else { 3 };
+        self.view.density * self.view.length.powi(axes)
+    }
+
     /// A force with the size of a pressure on an area.
     pub fn force(&self, part: [f64; 2]) -> String {
         self.vector(part, self.force_unit())
