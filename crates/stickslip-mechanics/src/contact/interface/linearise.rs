@@ -15,6 +15,10 @@ use crate::system::{Force, Stage};
 /// of displacements leaves as many digits more than it as are wanted of frequencies.
 const FIRM: f64 = 1e5;
 
+/// Strain of the cell beneath a point under a pressure that is rounding: bodies that were pressed and released have strains of some hundred units in the last place of
+/// one.
+const NO_STRAIN: f64 = 1e-13;
+
 /// A contact point that carries something, linearised: small displacements and velocities `x`, `v` of its dofs meet the force `-Rᵀ (K R x + C R v)`, with the
 /// gradients `R` of the gap and of the two components of slip.
 #[derive(Debug, Clone, PartialEq)]
@@ -82,9 +86,11 @@ fn line(
         true => Status::Stick,
         false => e.response.status,
     };
-    // Where surfaces have just parted, rounding would close them.
-    let before = interface.state.points[i].status;
-    let parted = interface.state.acting && !interface.laws.tied && before == Status::Open;
+    // Where surfaces have just parted, rounding would close them, by the gap or by what is left of the pressure.
+    let (before, point) = (interface.state.points[i].status, &interface.points[i]);
+    let nothing = NO_STRAIN * point.stiffness * point.size;
+    let open = before == Status::Open || e.response.traction[0] <= nothing;
+    let parted = interface.state.acting && !interface.laws.tied && open;
     if status == Status::Open || parted {
         return None;
     }
