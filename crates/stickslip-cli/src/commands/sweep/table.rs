@@ -26,9 +26,10 @@ pub struct Row {
 
 /// Numbers as text: those of JSON know no NaN.
 mod in_words {
-    use super::{BTreeMap, Deserialize};
+    use std::collections::BTreeMap;
+
     use serde::de::Error;
-    use serde::{Deserializer, Serializer};
+    use serde::{Deserialize, Deserializer, Serializer};
 
     pub fn serialize<S: Serializer>(
         numbers: &BTreeMap<String, f64>,
