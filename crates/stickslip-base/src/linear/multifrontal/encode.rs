@@ -12,6 +12,7 @@ use super::super::symbolic::FIXED;
 use super::numeric::PartialFactor;
 use super::symbolic::Fronts;
 use super::tree::FrontTree;
+use crate::keep::{Keep, Kept};
 
 /// Names the format and its version.
 const MAGIC: &[u8; 8] = b"mfllt\0\0\x01";
@@ -26,22 +27,18 @@ impl PartialFactor {
     /// Those of `out`.
     pub fn encode(&self, out: &mut dyn Write) -> io::Result<()> {
         let fronts = &*self.fronts;
-        out.write_all(MAGIC)?;
-        let (dof, ratio) = self.smallest_pivot;
-        for number in [
-            fronts.shape.0 as u64,
-            fronts.shape.1 as u64,
-            fronts.points.start as u64,
-            fronts.points.end as u64,
-            fronts.interior.len() as u64,
-            fronts.root.len() as u64,
-            fronts.len() as u64,
-            fronts.rows.len() as u64,
-            dof as u64,
-            ratio.to_bits(),
-        ] {
-            out.write_all(&number.to_le_bytes())?;
-        }
+        let mut head = MAGIC.to_vec();
+        let header = Header {
+            shape: fronts.shape,
+            points: (fronts.points.start, fronts.points.end),
+            interior: fronts.interior.len(),
+            root: fronts.root.len(),
+            fronts: fronts.len(),
+            rows: fronts.rows.len(),
+            smallest_pivot: self.smallest_pivot,
+        };
+        header.keep(&mut head);
+        out.write_all(&head)?;
         let counts = (0..fronts.len()).map(|front| fronts.sizes(front).1 as u32);
         write_indices(out, fronts.position_of.iter().copied())?;
         write_indices(out, fronts.tree.first[1..].iter().copied())?;
@@ -77,15 +74,15 @@ impl PartialFactor {
             return Err(invalid("not a factor"));
         }
         let Header {
-            shape: (points, block),
-            range,
+            shape,
+            points: (start, end),
             interior,
             root,
             fronts,
             rows,
             smallest_pivot,
         } = Header::read(input)?;
-        let position_of = read_indices(input, range.len() * block)?;
+        let position_of = read_indices(input, (end - start) * shape.1)?;
         let first = read_indices(input, fronts)?;
         let parents = read_indices(input, fronts)?;
         let row_counts = read_indices(input, fronts)?;
@@ -93,8 +90,8 @@ impl PartialFactor {
         let mut tree = FrontTree::of(parents).ok_or_else(|| invalid("structure"))?;
         tree.first.extend(first);
         let fronts = Fronts {
-            shape: (points, block),
-            points: range,
+            shape,
+            points: start..end,
             interior: vec![NONE; interior],
             root: vec![NONE; root],
             position_of,
@@ -116,12 +113,13 @@ impl PartialFactor {
     }
 }
 
-/// What a file begins with.
+/// What stands behind the mark of the format.
+#[derive(Keep)]
 struct Header {
     /// Points and block size of the matrix.
     shape: (usize, usize),
-    /// Points of the substructure.
-    range: Range<usize>,
+    /// The first point of the substructure, and the one behind its last.
+    points: (usize, usize),
     /// Dofs eliminated, dofs kept, fronts and rows of all fronts.
     interior: usize,
     root: usize,
@@ -131,19 +129,22 @@ struct Header {
 }
 
 impl Header {
+    /// Its bytes: ten numbers.
+    const BYTES: usize = 80;
+
     fn read(input: &mut dyn Read) -> io::Result<Header> {
-        let mut header = [0u64; 10];
-        for number in &mut header {
-            let mut bytes = [0; 8];
-            input.read_exact(&mut bytes)?;
-            *number = u64::from_le_bytes(bytes);
-        }
-        let [counts @ .., dof, ratio] = header;
-        let mut sizes = [0; 8];
-        for (size, count) in sizes.iter_mut().zip(counts) {
-            *size = usize::try_from(count).map_err(|_| invalid("counts"))?;
-        }
-        let [points, block, start, end, interior, root, fronts, rows] = sizes;
+        let mut bytes = [0; Header::BYTES];
+        input.read_exact(&mut bytes)?;
+        let header = Header::back(&mut Kept::new(&bytes)).map_err(|_| invalid("counts"))?;
+        let Header {
+            shape: (points, block),
+            points: (start, end),
+            interior,
+            root,
+            fronts,
+            smallest_pivot: (dof, ratio),
+            ..
+        } = header;
         let dofs = points.checked_mul(block).filter(|&n| n < FIXED as usize);
         let sane = dofs.is_some()
             && (2..=3).contains(&block)
@@ -155,20 +156,10 @@ impl Header {
         if !sane {
             return Err(invalid("counts"));
         }
-        let ratio = f64::from_bits(ratio);
-        let dof = usize::try_from(dof).ok();
-        let (Some(dof), false) = (dof.filter(|&dof| dof <= points * block), ratio.is_nan()) else {
+        if dof > points * block || ratio.is_nan() {
             return Err(invalid("pivots"));
-        };
-        Ok(Header {
-            shape: (points, block),
-            range: start..end,
-            interior,
-            root,
-            fronts,
-            rows,
-            smallest_pivot: (dof, ratio),
-        })
+        }
+        Ok(header)
     }
 }
 

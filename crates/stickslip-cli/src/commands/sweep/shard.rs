@@ -8,6 +8,7 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use stickslip::Error;
 use stickslip::error::IoError;
@@ -34,9 +35,10 @@ const LEASE: &str = "shard.lease";
 const KIND: &str = "stickslip sweep shard 1";
 
 /// One of how many parts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Share {
     /// Counted from 1.
+    #[serde(rename = "shard")]
     pub index: usize,
     /// How many there are.
     pub of: usize,
@@ -84,7 +86,7 @@ impl std::fmt::Display for Share {
 }
 
 /// What a sweep is.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Sweep {
     /// Version of the program.
     pub version: String,
@@ -180,52 +182,28 @@ impl Sweep {
     }
 
     fn to_json(&self, share: Share) -> Value {
-        let axes = self.axes.iter();
-        let axes: Vec<Value> = axes
-            .map(|axis| json!({ "path": axis.path, "values": axis.values }))
-            .collect();
-        json!({
-            "kind": KIND, "version": self.version, "shard": share.index, "of": share.of,
-            "files": self.files, "axes": axes, "zip": self.zip, "fixed": self.fixed,
-            "columns": self.columns, "results": self.results,
+        json!(Record {
+            kind: KIND.into(),
+            share,
+            sweep: self.clone(),
         })
     }
 
     fn from_json(value: &Value) -> Option<(Sweep, Share)> {
-        let word = |v: &Value| v.as_str().map(str::to_string);
-        let words = |v: &Value| v.as_array()?.iter().map(word).collect::<Option<Vec<_>>>();
-        let number = |v: &Value| usize::try_from(v.as_u64()?).ok();
-        if value["kind"] != KIND {
-            return None;
-        }
-        let file = |v: &Value| Some((word(&v[0])?, word(&v[1])?));
-        let axis = |v: &Value| {
-            Some(Axis {
-                path: word(&v["path"])?,
-                values: words(&v["values"])?,
-            })
-        };
-        let sweep = Sweep {
-            version: word(&value["version"])?,
-            files: value["files"]
-                .as_array()?
-                .iter()
-                .map(file)
-                .collect::<Option<_>>()?,
-            axes: value["axes"]
-                .as_array()?
-                .iter()
-                .map(axis)
-                .collect::<Option<_>>()?,
-            zip: value["zip"].as_bool()?,
-            fixed: words(&value["fixed"])?,
-            columns: words(&value["columns"])?,
-            results: value["results"].as_bool()?,
-        };
-        let (index, of) = (number(&value["shard"])?, number(&value["of"])?);
-        let share = Share { index, of };
-        (1..=of).contains(&index).then_some((sweep, share))
+        let Record { kind, share, sweep } = Record::deserialize(value).ok()?;
+        let sound = kind == KIND && (1..=share.of).contains(&share.index);
+        sound.then_some((sweep, share))
     }
+}
+
+/// What stands in `shard.json`.
+#[derive(Serialize, Deserialize)]
+struct Record {
+    kind: String,
+    #[serde(flatten)]
+    share: Share,
+    #[serde(flatten)]
+    sweep: Sweep,
 }
 
 fn digest_in_words(file: &Path) -> Result<String, Error> {
@@ -234,9 +212,10 @@ fn digest_in_words(file: &Path) -> Result<String, Error> {
 }
 
 /// A run of a shard that is over.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Done {
     /// Its row.
+    #[serde(flatten)]
     pub row: Row,
     /// The columns of its history, in order; none if it did not come so far.
     pub names: Vec<String>,
@@ -259,14 +238,8 @@ fn digest(row: &Value) -> String {
 
 impl Done {
     fn to_json(&self, run: usize) -> Value {
-        // As text: numbers of JSON know no NaN.
-        let last = self.row.last.iter();
-        let last: BTreeMap<&String, String> = last.map(|(k, x)| (k, format!("{x:e}"))).collect();
-        let mut value = json!({
-            "run": run + 1, "values": self.row.values, "outcome": self.row.outcome, "failed": self.failed, "poor": self.poor,
-            "counts": self.row.counts, "names": self.names, "last": last, "effort": self.effort,
-            "processor": self.processor,
-        });
+        let mut value = json!(self);
+        value["run"] = json!(run + 1);
         value["digest"] = json!(digest(&value));
         value
     }
@@ -278,31 +251,8 @@ impl Done {
         if said.as_str()? != digest(&value) {
             return None;
         }
-        let word = |v: &Value| v.as_str().map(str::to_string);
-        let words = |v: &Value| v.as_array()?.iter().map(word).collect::<Option<Vec<_>>>();
-        let run = usize::try_from(value["run"].as_u64()?)
-            .ok()?
-            .checked_sub(1)?;
-        let last = value["last"].as_object()?.iter();
-        let last = last.map(|(name, x)| Some((name.clone(), x.as_str()?.parse().ok()?)));
-        let counts = match &value["counts"] {
-            Value::Null => None,
-            counts => Some(serde_json::from_value(counts.clone()).ok()?),
-        };
-        let done = Done {
-            row: Row {
-                values: words(&value["values"])?,
-                outcome: word(&value["outcome"])?,
-                counts,
-                last: last.collect::<Option<_>>()?,
-            },
-            names: words(&value["names"])?,
-            failed: value["failed"].as_bool()?,
-            poor: value["poor"].as_bool()?,
-            effort: word(&value["effort"])?,
-            processor: word(&value["processor"])?,
-        };
-        Some((run, done))
+        let run = usize::try_from(value["run"].as_u64()?).ok()?;
+        Some((run.checked_sub(1)?, Done::deserialize(&value).ok()?))
     }
 }
 

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use serde::{Deserialize, Serialize};
 use stickslip::Error;
 use stickslip::error::IoError;
 use stickslip::io::csv::split;
@@ -10,7 +11,7 @@ use stickslip::io::{own, write_atomically};
 use stickslip::results::Summary;
 
 /// What is known of a run.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// The values of the axes.
     pub values: Vec<String>,
@@ -19,7 +20,32 @@ pub struct Row {
     /// Increments, iterations and cut-backs; none if the model could not be built.
     pub counts: Option<[usize; 3]>,
     /// The last row of the history.
+    #[serde(with = "in_words")]
     pub last: BTreeMap<String, f64>,
+}
+
+/// Numbers as text: those of JSON know no NaN.
+mod in_words {
+    use std::collections::BTreeMap;
+
+    use serde::de::Error;
+    use serde::{Deserialize, Deserializer, Serializer};
+
+    pub fn serialize<S: Serializer>(
+        numbers: &BTreeMap<String, f64>,
+        out: S,
+    ) -> Result<S::Ok, S::Error> {
+        out.collect_map(numbers.iter().map(|(name, x)| (name, format!("{x:e}"))))
+    }
+
+    pub fn deserialize<'de, D: Deserializer<'de>>(
+        from: D,
+    ) -> Result<BTreeMap<String, f64>, D::Error> {
+        let words: BTreeMap<String, String> = Deserialize::deserialize(from)?;
+        let number =
+            |(name, word): (String, String)| Ok((name, word.parse().map_err(Error::custom)?));
+        words.into_iter().map(number).collect()
+    }
 }
 
 impl Row {

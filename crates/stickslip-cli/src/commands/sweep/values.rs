@@ -4,7 +4,7 @@
 pub const MOST_RUNS: usize = 100_000;
 
 /// A key of the problem file and the values it takes.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Axis {
     /// The key, as it was written.
     pub path: String,
