@@ -192,7 +192,10 @@ pub fn difference(a: &Trace, b: &Trace, tolerance: Tolerance) -> (f64, String) {
     }
     // Of a point at the limit of friction rounding says whether it sticks, and so what moves with it.
     let alike = a.statuses == b.statuses;
-    for (file, values) in a.frequencies.iter().filter(|_| alike) {
+    // And of surfaces that were released what tolerances leave says whether they touch.
+    let ends = [a, b].map(|trace| most(&mut trace.forces.values().filter_map(|f| f.last())));
+    let released = ends[0].max(ends[1]) < ROUNDING * scale;
+    for (file, values) in a.frequencies.iter().filter(|_| alike && !released) {
         let Some(others) = b.frequencies.get(file) else {
             continue;
         };

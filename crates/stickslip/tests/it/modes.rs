@@ -210,6 +210,42 @@ step = [
     }
 }
 
+/// A block that was pressed with 10⁹ Pa, dragged and released: points that keep 10⁻⁵ Pa are no contact, and modes are those of two bodies.
+#[test]
+fn a_pressure_that_is_rounding_is_no_contact_in_modes() {
+    let text = r#"
+format = 1
+model.space = "solid"
+support.base = { set = "lower.bottom", x = 0, y = 0, z = 0 }
+support.press = { set = "head", z = -0.0146, amplitude = "press" }
+support.guide = { set = "head", x = 0.01095, y = 0, rotation-x = 0, rotation-y = 0, rotation-z = 0, amplitude = "slide" }
+amplitude.press.table = [[0, 0], [1, 1], [2, 0]]
+amplitude.slide.table = [[0, 0], [1, 1]]
+reference.head = { point = [0, 0, 1.33955] }
+coupling.head.kinematic = { reference = "head", set = "upper.top" }
+body.lower = { generate.box = { from = [-1.825, -0.9125, -1.54395], to = [1.825, 0.9125, 0], cells = [2, 2, 2] }, material = "low" }
+material.low.isotropic = { young = 4.08e10, poisson = 0.178, density = 11700 }
+body.upper = { generate.box = { from = [-1.095, -0.9125, 0], to = [1.095, 0.9125, 1.33955], cells = [2, 2, 2], element = "tet4" }, material = "up" }
+material.up.isotropic = { young = 1.787e11, poisson = 0.273, density = 11700 }
+"#;
+    let joint = r#"
+interface.joint = { secondary = "upper.bottom", primary = "lower.top", friction.coulomb.mu = 0.234, roles = "as-named" }
+step = [
+    { increments.fixed = 4 },
+    { increments.fixed = 4 },
+    { increments.fixed = 2, steady.velocity.joint = [18.7, 0, 0] },
+    { complex-modes.count = 4 },
+]
+"#;
+    let apart = "step = [{}, { modes.count = 4 }]\n";
+    let [released, apart] = [joint, apart].map(|rest| modes(&format!("{text}{rest}")).modes);
+    assert_eq!((released.len(), apart.len()), (4, 4));
+    for (a, b) in released.iter().zip(&apart) {
+        near(a.frequency, b.frequency, 1e-6);
+        assert!(a.growth.abs() < 1e-6, "{}", a.growth);
+    }
+}
+
 #[test]
 fn real_modes_are_those_of_the_dense_matrices() {
     let held = "support.left = { set = \"brick.left\", x = 0, y = 0, z = 0 }";
