@@ -44,6 +44,7 @@ tasks:
   walk [--damages N] [--seed S]
                             set every numeric key of the examples to numbers that make no sense, check and begin to run them, and check N damaged
                             meshes, decks and problem files (default 3000); fails if the binary panics, or if a check does not end
+  house                     count the code of the library, room by room: lines, types, methods, functions that are long, put-backs, constants
   chatter                   run cases in which many points change status and print a table of iterations and fallbacks
   peers [FIGURE] [N ...]    measure, side by side with CalculiX where `ccx` is installed, and print tables in Markdown.
                             Without a figure: slide and bar

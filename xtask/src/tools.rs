@@ -5,10 +5,11 @@ use std::process::{Command, ExitCode};
 use xtask::workspace;
 
 /// Their names.
-pub const TASKS: [&str; 8] = [
+pub const TASKS: [&str; 9] = [
     "chatter",
     "decks",
     "digests",
+    "house",
     "kill",
     "mixes",
     "peers",

@@ -3,6 +3,7 @@
 mod chatter;
 mod decks;
 mod digests;
+mod house;
 mod kill;
 mod mixes;
 mod peers;
@@ -16,6 +17,7 @@ fn main() -> ExitCode {
     let result = match arguments.split_first() {
         Some((task, what)) if task == "decks" => decks::run(what),
         Some((task, what)) if task == "digests" => digests::run(what),
+        Some((task, [])) if task == "house" => house::count(),
         Some((task, what)) if task == "kill" => kill::run(what),
         Some((task, what)) if task == "walk" => walk::walk(what),
         Some((task, [])) if task == "chatter" => chatter::measure(),
