@@ -164,6 +164,38 @@ fn the_end_of_a_period_that_is_over_the_primary_carries() {
     }
 }
 
+/// Two layers with a period that rub: the nodes at its ends, of which one has the multiplier of both or another that of both, are worn like all others.
+#[test]
+fn ends_of_a_period_wear_like_the_rest() {
+    let equation = |body: &str, c: &str| {
+        format!(
+            "coupling.{body}-{c}.equation.terms = [{{ set = \"{body}.left\", component = \"{c}\" }}, {{ set = \"{body}.right\", component = \"{c}\", factor = -1 }}]\n"
+        )
+    };
+    let all = [("low", "x"), ("low", "y"), ("up", "x"), ("up", "y")];
+    let equations: String = all.iter().map(|(body, c)| equation(body, c)).collect();
+    for met in ["mortar", "node-to-facet"] {
+        let row = end(&format!(
+            "format = 1\nmodel.space = \"plane-strain\"\n\
+             material.m.isotropic = {{ young = 1.2e7, poisson = 0.2 }}\n\
+             body.low = {{ generate.rectangle = {{ from = [0, -2], to = [6, 0], cells = [6, 2] }}, material = \"m\" }}\n\
+             body.up = {{ generate.rectangle = {{ to = [6, 3], cells = [6, 5] }}, material = \"m\" }}\n\
+             interface.c = {{ secondary = \"up.bottom\", primary = \"low.top\", friction.coulomb.mu = 0.2, wear.archard.coefficient = 1e-9, roles = \"as-named\", discretisation.{met} = {{}} }}\n\
+             support.base = {{ set = \"low.bottom\", x = 0, y = 0 }}\n\
+             amplitude.slide.table = [[0, 0], [1, 0], [2, 1]]\n\
+             support.slide = {{ set = \"up.top\", x = 0.01, amplitude = \"slide\" }}\n\
+             load.p = {{ set = \"up.top\", pressure.value = 1.5e4 }}\n{equations}\
+             step = [{{ increments.fixed = 1 }}, {{ increments.fixed = 4 }}]\n"
+        ));
+        let [most, volume] = ["c.CWEARMAX", "c.CWEARVOL"].map(|name| value(&row, name));
+        assert!(
+            (most * 6.0 / volume - 1.0).abs() < 0.03,
+            "{met}: {most:e} of a mean of {:e}",
+            volume / 6.0
+        );
+    }
+}
+
 /// What follows a reference point that supports hold is held: a wall beside it has nothing to keep out, be the body rigid or elastic at the points that follow.
 #[test]
 fn a_wall_beside_what_follows_a_held_reference_point_carries_nothing() {

@@ -1,5 +1,6 @@
 //! What an accepted increment leaves behind: histories, and the energies that went through the interface on the way.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::belt::belt_path;
@@ -19,6 +20,7 @@ use super::sides::{leave_traces, opposite};
 use super::view::ContactView;
 use super::worn::{add_nodal_wear, path, sliding_distance, wear_increment};
 use crate::contact::enforcement::Multipliers;
+use crate::contact::mortar::heirs;
 use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
 use crate::system::Stage;
@@ -41,7 +43,9 @@ struct Passed {
 }
 
 /// An increment as all points see it.
-struct Increment {
+struct Increment<'a> {
+    /// Points without a multiplier, and those that take their part.
+    given: &'a Given,
     /// Contact is followed along its path: nothing moves fast, and multipliers hold it.
     resolved: bool,
     /// Way of the belt.
@@ -51,6 +55,55 @@ struct Increment {
     dt: f64,
     /// Points that stick creep.
     creeps: bool,
+}
+
+/// Points of a mortar whose multipliers others have, as their motions are given.
+#[derive(Default)]
+struct Given {
+    /// Those, with the points that take their part and the area that each takes `[m²]`.
+    heirs: Vec<(usize, Vec<(usize, f64)>)>,
+    /// By point that takes some, the area that it takes `[m²]`.
+    taken: BTreeMap<usize, f64>,
+}
+
+impl Given {
+    fn of(definition: &InterfaceDefinition) -> Self {
+        let mut given = Given::default();
+        let Some(mortar) = &definition.mortar else {
+            return given;
+        };
+        if !mortar.faces.iter().any(|face| face.held.contains(&true)) {
+            return given;
+        }
+        for point in 0..definition.points.len() {
+            let heirs = heirs(mortar, point);
+            for &(heir, area) in &heirs {
+                *given.taken.entry(heir).or_default() += area;
+            }
+            if heirs.iter().any(|(_, area)| *area > 0.0) {
+                given.heirs.push((point, heirs));
+            }
+        }
+        given
+    }
+
+    /// Gives to these points what has added up per area where their part was taken: their surface has seen the same.
+    fn hand_back(&self, points: &mut [PointHistory]) {
+        for (point, heirs) in &self.heirs {
+            let whole: f64 = heirs.iter().map(|(_, area)| area).sum();
+            let mean = |of: fn(&PointHistory) -> f64| -> f64 {
+                let parts = heirs.iter().map(|&(k, area)| area * of(&points[k]));
+                parts.sum::<f64>() / whole
+            };
+            points[*point] = PointHistory {
+                worn: mean(|h| h.worn),
+                dissipated: mean(|h| h.dissipated),
+                path: mean(|h| h.path),
+                spent: mean(|h| h.spent),
+                ..points[*point]
+            };
+        }
+    }
 }
 
 /// What the committed history becomes: the trial, and what that adds to the energies.
@@ -84,7 +137,9 @@ pub fn commit(interface: &mut InterfaceForce, stage: &Stage) -> History {
         next.energy.stored = 0.0;
         return next;
     }
+    let given = Given::of(input.definition);
     let increment = Increment {
+        given: &given,
         resolved: stage.rate.is_none() && !state.springs,
         belt: belt_path(input, stage),
         times: [stage.from.t, stage.at.t],
@@ -110,6 +165,7 @@ pub fn commit(interface: &mut InterfaceForce, stage: &Stage) -> History {
         work += passed.work * area;
     }
     share_what_adds_up(input.definition, last, &mut next.points);
+    given.hand_back(&mut next.points);
     if !state.start.overlap.is_empty() {
         Arc::make_mut(&mut next.start).overlap.clear();
     }
@@ -282,7 +338,8 @@ fn pass(
     let path = sliding_distance(interface.definition, r, e.frames.before, e.moved);
     let pressed = (0.5 * (h.pressure + r.traction[0]) * path).max(0.0);
     let worn = wear_increment(interface, h, e, pressed, dissipated, dt);
-    let whole = interface.points[i].area * interface.share;
+    let taken = increment.given.taken.get(&i).copied().unwrap_or(0.0);
+    let whole = (interface.points[i].area + taken) * interface.share;
     let covered = if whole > 0.0 { e.area / whole } else { 0.0 };
     // Slip so far goes along with the surface, as tractions do.
     let dim = interface.dofs.dim;

@@ -72,7 +72,7 @@ pub(super) fn values(contact: ContactView, i: usize) -> PointValues {
         Some(mortar) => heirs(mortar, i),
         None => Vec::new(),
     };
-    let of = heirs.into_iter().map(|k| own_values(contact, k));
+    let of = heirs.into_iter().map(|(k, _)| own_values(contact, k));
     // Over nothing there is nothing to show.
     let of = of.filter(|v| v.gap.is_finite());
     match of.max_by(|a, b| a.pressure.abs().total_cmp(&b.pressure.abs())) {

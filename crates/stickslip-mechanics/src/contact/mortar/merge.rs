@@ -37,8 +37,9 @@ pub fn merged(faces: &[Face], covered: &[f64]) -> Vec<Merged> {
     faces.iter().map(of).collect()
 }
 
-/// The points that take the part of a point whose own motion is given on all faces around it, once for each face that they share; none where it keeps its multiplier.
-pub fn heirs(mortar: &Mortar, point: usize) -> Vec<usize> {
+/// The points that take the part of a point whose own motion is given on all faces around it, once for each face that they share, with the area `[m²]` that they take;
+/// none where it keeps its multiplier.
+pub fn heirs(mortar: &Mortar, point: usize) -> Vec<(usize, f64)> {
     let around = &mortar.around[point];
     let gives = |&(f, a): &(usize, usize)| {
         let held = &mortar.faces[f].held;
@@ -51,9 +52,9 @@ pub fn heirs(mortar: &Mortar, point: usize) -> Vec<usize> {
         let face = &mortar.faces[f];
         let bits = face.held.iter().enumerate().filter(|(_, held)| **held);
         let merged = bits.fold(0, |m, (k, _)| m | 1 << k);
-        nearest(face.kind, merged, a)
-            .into_iter()
-            .map(|k| face.points[k])
+        let found = nearest(face.kind, merged, a);
+        let part = face.areas[a] / found.len().max(1) as f64;
+        found.into_iter().map(move |k| (face.points[k], part))
     };
     around.iter().flat_map(of).collect()
 }
