@@ -125,13 +125,7 @@ fn pressure_is_finite_where_a_face_hangs_over_an_edge() {
 /// Two layers with a period, of which the upper one slides to either side: where points meet facets, that end of the period carries which lies over the primary.
 #[test]
 fn the_end_of_a_period_that_is_over_the_primary_carries() {
-    let equation = |body: &str, c: &str| {
-        format!(
-            "coupling.{body}-{c}.equation.terms = [{{ set = \"{body}.left\", component = \"{c}\" }}, {{ set = \"{body}.right\", component = \"{c}\", factor = -1 }}]\n"
-        )
-    };
-    let all = [("low", "x"), ("low", "y"), ("up", "x"), ("up", "y")];
-    let equations: String = all.iter().map(|(body, c)| equation(body, c)).collect();
+    let equations = periodic();
     for friction in [
         "",
         "friction.coulomb.mu = 0.2, ",
@@ -167,13 +161,7 @@ fn the_end_of_a_period_that_is_over_the_primary_carries() {
 /// Two layers with a period that rub: the nodes at its ends, of which one has the multiplier of both or another that of both, are worn like all others.
 #[test]
 fn ends_of_a_period_wear_like_the_rest() {
-    let equation = |body: &str, c: &str| {
-        format!(
-            "coupling.{body}-{c}.equation.terms = [{{ set = \"{body}.left\", component = \"{c}\" }}, {{ set = \"{body}.right\", component = \"{c}\", factor = -1 }}]\n"
-        )
-    };
-    let all = [("low", "x"), ("low", "y"), ("up", "x"), ("up", "y")];
-    let equations: String = all.iter().map(|(body, c)| equation(body, c)).collect();
+    let equations = periodic();
     for met in ["mortar", "node-to-facet"] {
         let row = end(&format!(
             "format = 1\nmodel.space = \"plane-strain\"\n\
@@ -255,17 +243,22 @@ fn a_corner_that_is_clamped_inside_an_obstacle_carries_nothing() {
     assert!(value(&inside, "c.CPRESSMAX") < 10.0 * value(&flush, "c.CPRESSMAX"));
 }
 
+/// Equations by which both ends of the bodies `low` and `up` move alike.
+fn periodic() -> String {
+    let equation = |(body, c): (&str, &str)| {
+        format!(
+            "coupling.{body}-{c}.equation.terms = [{{ set = \"{body}.left\", component = \"{c}\" }}, {{ set = \"{body}.right\", component = \"{c}\", factor = -1 }}]\n"
+        )
+    };
+    let all = [("low", "x"), ("low", "y"), ("up", "x"), ("up", "y")];
+    all.into_iter().map(equation).collect()
+}
+
 /// Two layers with a period, the upper one slid aside by a part of a cell: the ends of a period are one place, with one multiplier.
 #[test]
 fn ends_of_a_period_take_no_more_iterations_than_ends_that_are_free() {
     let layers = |tied: bool, met: &str| {
-        let equation = |body: &str, c: &str| {
-            format!(
-                "coupling.{body}-{c}.equation.terms = [{{ set = \"{body}.left\", component = \"{c}\" }}, {{ set = \"{body}.right\", component = \"{c}\", factor = -1 }}]\n"
-            )
-        };
-        let all = [("low", "x"), ("low", "y"), ("up", "x"), ("up", "y")];
-        let equations: String = all.iter().map(|(body, c)| equation(body, c)).collect();
+        let equations = periodic();
         format!(
             "format = 1\nmodel.space = \"plane-strain\"\n\
              material.m.isotropic = {{ young = 1.2e7, poisson = 0.2 }}\n\
