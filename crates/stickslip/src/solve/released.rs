@@ -11,7 +11,8 @@ use crate::model::free_bodies::FreeBody;
 use crate::model::scene::Scene;
 use crate::time::Trial;
 
-/// Load, relative to the largest so far, that is none: what increments may leave unbalanced, as what is left of the reaction of a support that lets go.
+/// The part of the largest load so far below which a load counts as zero: the residual that increments may leave, and so the remainder of the reaction of a released
+/// support.
 pub(super) fn no_load(model: &Model) -> f64 {
     model.solution.settings.tolerance
 }

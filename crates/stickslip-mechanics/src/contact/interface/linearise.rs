@@ -15,9 +15,8 @@ use crate::system::{Force, Stage};
 /// of displacements leaves as many digits more than it as are wanted of frequencies.
 const FIRM: f64 = 1e5;
 
-/// Strain of the cell beneath a point under a pressure that is rounding: bodies that were pressed and released have strains of some hundred units in the last place of
-/// one.
-const NO_STRAIN: f64 = 1e-13;
+/// A pressure that strains the cell beneath a point by no more than this is rounding: some hundred times the relative rounding of a strain of one.
+const ROUNDING_STRAIN: f64 = 1e-13;
 
 /// A contact point that carries something, linearised: small displacements and velocities `x`, `v` of its dofs meet the force `-Rᵀ (K R x + C R v)`, with the
 /// gradients `R` of the gap and of the two components of slip.
@@ -86,10 +85,10 @@ fn line(
         true => Status::Stick,
         false => e.response.status,
     };
-    // Where surfaces have just parted, rounding would close them, by the gap or by what is left of the pressure.
+    // Surfaces that have just separated are open: rounding of the gap or of the pressure would count them as closed.
     let (before, point) = (interface.state.points[i].status, &interface.points[i]);
-    let nothing = NO_STRAIN * point.stiffness * point.size;
-    let open = before == Status::Open || e.response.traction[0] <= nothing;
+    let rounding = ROUNDING_STRAIN * point.stiffness * point.size;
+    let open = before == Status::Open || e.response.traction[0] <= rounding;
     let parted = interface.state.acting && !interface.laws.tied && open;
     if status == Status::Open || parted {
         return None;
