@@ -227,7 +227,7 @@ fn measure(name: &str, kind: ElementKind, bent: bool, kinematics: KinematicsMode
         rate: None,
         frames: None,
     };
-    let history = History::new(interface.points.len());
+    let history = History::new(interface.points.len(), interface.laws.friction_law());
     let conditions = Conditions::default();
     let mut interface = interface.force(&history, &conditions);
     let mut out = Assembler::new(interface.dofs.count());

@@ -69,10 +69,10 @@ pub fn run(arguments: &Arguments) -> Outcome {
         let slope = normal.pressure(gap).map_or(f64::NEG_INFINITY, |s| s.slope);
         let limit = |sticking| {
             let at = FrictionPoint {
-                pressure: p,
                 penetration: (-gap).max(0.0),
                 speed: 1.0,
                 sticking,
+                ..FrictionPoint::at_rest(friction, p)
             };
             friction.limit(&at).value
         };

@@ -22,7 +22,9 @@ pub(super) fn project(d: usize, law: &PointLaw, z: &[f64]) -> Projected {
     if z[0] > 0.0 {
         derivative[0] = 1.0;
     }
-    let shear = z[1..d].iter().map(|t| t * t).sum::<f64>().sqrt();
+    let cone = law.cone(pressed);
+    let trial = [z[1], z.get(2).copied().unwrap_or(0.0)];
+    let shear = cone.length(trial);
     if shear <= limit {
         for a in 1..d {
             forces[a] = z[a];
@@ -30,15 +32,14 @@ pub(super) fn project(d: usize, law: &PointLaw, z: &[f64]) -> Projected {
         }
         return Projected { forces, derivative };
     }
+    let slips = cone.boundary(trial, shear, 1.0);
     for a in 1..d {
-        let along = z[a] / shear;
-        forces[a] = limit * along;
+        forces[a] = slips.shear[a - 1];
         for b in 1..d {
-            let unit = if a == b { 1.0 } else { 0.0 };
-            derivative[a * d + b] = limit / shear * (unit - along * z[b] / shear);
+            derivative[a * d + b] = slips.d_motion[a - 1][b - 1];
         }
         if z[0] > 0.0 {
-            derivative[a * d] = slope * along;
+            derivative[a * d] = slope * slips.d_limit[a - 1];
         }
     }
     Projected { forces, derivative }

@@ -9,6 +9,7 @@
 //!
 //! What counts is the norm of the natural map, [`FrictionProblem::error`].
 
+pub mod cone;
 mod gauss_seidel;
 mod linear;
 mod map;

@@ -1,3 +1,5 @@
+use super::cone::Cone;
+
 /// Limit of the friction force at a point: `adhesion + mu p` at a contact force `p`, never below zero.
 ///
 /// Coulomb's law has no adhesion, Tresca's no coefficient; any other law is its tangent.
@@ -20,6 +22,14 @@ impl PointLaw {
         PointLaw {
             mu: 0.0,
             adhesion: limit,
+        }
+    }
+
+    /// The shear forces that are allowed at a contact force.
+    pub fn cone(&self, force: f64) -> Cone {
+        Cone {
+            limit: self.limit(force).0,
+            skew: 0.0,
         }
     }
 

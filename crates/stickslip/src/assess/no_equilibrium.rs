@@ -367,7 +367,7 @@ fn tangents(normal: Vec3, dim: usize) -> Vec<Vec3> {
 /// The largest coefficient of friction of an interface, whatever the pressure and speed; `None` where it is not known, or not limited by pressure.
 fn largest_friction(interface: &InterfaceDefinition) -> Option<f64> {
     let law = interface.laws.friction_law();
-    if interface.laws.user.any() {
+    if interface.laws.user.any() || !law.states().is_empty() {
         return None;
     }
     if !law.frictional() {
@@ -382,10 +382,9 @@ fn largest_friction(interface: &InterfaceDefinition) -> Option<f64> {
         for speed in SPEEDS.map(|v| v * point.size) {
             for sticking in [true, false] {
                 let limit = law.limit(&FrictionPoint {
-                    pressure,
-                    penetration: 0.0,
                     speed,
                     sticking,
+                    ..FrictionPoint::at_rest(law, pressure)
                 });
                 most = most.max(limit.value / pressure);
             }

@@ -14,6 +14,7 @@ impl Frame {
     pub(crate) fn begin_step(&mut self, model: &Model, contact: &mut Contact) {
         let step = &model.steps[self.step];
         contact.change_laws(&self.contacts, step, |energy| self.ledger.initial += energy);
+        contact.begin_law_states(&mut self.contacts, step);
         let middle = 0.5 * (step.start + step.end);
         let before = self.step.checked_sub(1).map(|i| {
             let s = &model.steps[i];

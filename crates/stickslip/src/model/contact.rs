@@ -1,5 +1,7 @@
 //! What is evaluated in every iteration: interfaces and couplings.
 
+use std::sync::Arc;
+
 use super::definition::Step;
 use super::frame::{ContactMemory, Frame};
 use crate::body::couplings::{Couplings, CouplingsForce, CouplingsView};
@@ -74,7 +76,7 @@ impl Contact {
     /// What they know before anything has happened, at a state.
     pub(crate) fn begin(&mut self, stage: &Stage) -> ContactMemory {
         let interfaces = self.interfaces.iter_mut().map(|interface| {
-            let mut history = History::new(interface.points.len());
+            let mut history = History::new(interface.points.len(), interface.laws.friction_law());
             interface::glue(interface, &mut history, stage);
             history
         });
@@ -125,6 +127,18 @@ impl Contact {
                 let before = look::energy(interface.view(history)).stored;
                 interface.definition = interface::changed(interface, change);
                 bring(look::energy(interface.view(history)).stored - before);
+            }
+        }
+    }
+
+    /// Gives interfaces whose friction law has changed with a step the state variables with which the new one begins.
+    pub(crate) fn begin_law_states(&self, memory: &mut Arc<ContactMemory>, step: &Step) {
+        let changes = step.changes.iter().filter(|(_, c)| c.friction.is_some());
+        for (name, _) in changes {
+            let memory = Arc::make_mut(memory);
+            let all = self.interfaces.iter().zip(&mut memory.interfaces);
+            for (interface, history) in all.filter(|(i, _)| i.name == *name) {
+                history.begin_law(interface.laws.friction_law());
             }
         }
     }

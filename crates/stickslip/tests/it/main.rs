@@ -46,6 +46,7 @@ mod restep;
 mod rigid;
 mod roughness;
 mod schema;
+mod seams;
 mod slits;
 mod solvable;
 mod spinning;

@@ -7,6 +7,7 @@ use stickslip::contact::look;
 
 use crate::support;
 use stickslip::Error;
+use stickslip::model::Setup;
 use stickslip::newton::condensed::Library;
 use stickslip::problem::{Document, Problem, changed_keys};
 use stickslip::results::{Analysis, Event, Observer, Snapshot};
@@ -79,16 +80,27 @@ fn summary(simulation: &Simulation) -> String {
     serde_json::to_string_pretty(&value).unwrap_or_default()
 }
 
-fn begin(problem: &Problem, folder: &Path) -> Simulation {
-    let setup = problem.build(folder).unwrap_or_else(|e| panic!("{e}"));
+fn in_place(problem: &Problem) -> Setup {
+    problem
+        .build(Path::new("."))
+        .unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn begin(setup: Setup) -> Simulation {
     Simulation::new(setup).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// Runs a problem once, and takes a checkpoint wherever there can be one, in the middle of increments that wait for their report as well; goes on from
 /// `count` of them.
 pub fn check(name: &str, problem: &Problem, folder: &Path, count: usize) {
+    let setup = || problem.build(folder).unwrap_or_else(|e| panic!("{e}"));
+    check_setups(name, &setup, count);
+}
+
+/// The same of what is made anew each time.
+pub fn check_setups(name: &str, setup: &dyn Fn() -> Setup, count: usize) {
     let mut whole = Diary::default();
-    let mut run = begin(problem, folder);
+    let mut run = begin(setup());
     let mut taken = Vec::new();
     loop {
         match run.advance(&mut [&mut whole]) {
@@ -109,9 +121,8 @@ pub fn check(name: &str, problem: &Problem, folder: &Path, count: usize) {
         let (rows, seen, bytes) = &taken[k];
         let checkpoint = Checkpoint::from_bytes(bytes).expect("bytes of a checkpoint");
         assert_eq!(&checkpoint.to_bytes(), bytes, "{name}: written once more");
-        let setup = problem.build(folder).expect("it was built before");
         let library = Arc::new(Library::new(Library::small_limit()));
-        let mut again = Simulation::resume(setup, library, checkpoint)
+        let mut again = Simulation::resume(setup(), library, checkpoint)
             .unwrap_or_else(|e| panic!("{name}: {e}"));
         let at_once = again.checkpoint().expect("it stands where it stood");
         assert!(at_once.to_bytes() == *bytes, "{name}: taken at once again");
@@ -249,11 +260,11 @@ fn a_run_that_is_stopped_in_the_middle_of_an_increment_goes_on_with_the_same_bit
 /// Runs a problem, stops it when it has asked so many times whether to stop, and goes on from the checkpoint that is left.
 pub fn check_stopped(name: &str, problem: &Problem, asked: &[usize]) {
     let mut whole = Diary::default();
-    let mut run = begin(problem, Path::new("."));
+    let mut run = begin(in_place(problem));
     run.run(&mut [&mut whole]).unwrap_or_else(|e| panic!("{e}"));
     for &asked in asked {
         let counter = AtomicUsize::new(0);
-        let mut stopped = begin(problem, Path::new("."));
+        let mut stopped = begin(in_place(problem));
         stopped.set_interrupt(Arc::new(move || {
             counter.fetch_add(1, Ordering::Relaxed) == asked
         }));
@@ -317,7 +328,7 @@ fn what_a_run_writes_is_told_before_it() {
             .replace("cells = [4, 4]", "cells = [20, 20]")
             .replace("increments.initial = 0.2", "increments.fixed = 5")
             .replace("duration = 2e-3", "duration = 5e-4");
-        let mut run = begin(&support::problem(&text), Path::new("."));
+        let mut run = begin(in_place(&support::problem(&text)));
         let told = run.sizes();
         let mut written = Written::default();
         run.run(&mut [&mut written])
@@ -338,7 +349,7 @@ fn what_a_run_writes_is_told_before_it() {
 
 #[test]
 fn a_checkpoint_of_another_model_is_refused() {
-    let mut run = begin(&kinds("sparse"), Path::new("."));
+    let mut run = begin(in_place(&kinds("sparse")));
     while run.summary.attempts.increments == 0 {
         run.advance(&mut []).unwrap_or_else(|e| panic!("{e}"));
     }

@@ -28,6 +28,7 @@ pub fn changed(interface: &InterfaceDefinition, change: &Change) -> InterfaceDef
     if let Some(friction) = &change.friction {
         laws.friction = friction.clone();
         laws.user.friction = None;
+        laws.own_friction = None;
     }
     interface.with_laws(laws)
 }

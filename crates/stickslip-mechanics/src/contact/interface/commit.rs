@@ -1,6 +1,5 @@
 //! What an accepted increment leaves behind: histories, and the energies that went through the interface on the way.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::belt::belt_path;
@@ -20,7 +19,7 @@ use super::sides::{leave_traces, opposite};
 use super::view::ContactView;
 use super::worn::{add_nodal_wear, path, sliding_distance, wear_increment};
 use crate::contact::enforcement::Multipliers;
-use crate::contact::mortar::heirs;
+use crate::contact::law::friction::LawState;
 use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
 use crate::system::Stage;
@@ -43,9 +42,7 @@ struct Passed {
 }
 
 /// An increment as all points see it.
-struct Increment<'a> {
-    /// Points without a multiplier, and those that take their part.
-    given: &'a Given,
+struct Increment {
     /// Contact is followed along its path: nothing moves fast, and multipliers hold it.
     resolved: bool,
     /// Way of the belt.
@@ -55,55 +52,6 @@ struct Increment<'a> {
     dt: f64,
     /// Points that stick creep.
     creeps: bool,
-}
-
-/// Points of a mortar whose multipliers others have, as their motions are given.
-#[derive(Default)]
-struct Given {
-    /// Those, with the points that take their part and the area that each takes `[m²]`.
-    heirs: Vec<(usize, Vec<(usize, f64)>)>,
-    /// By point that takes some, the area that it takes `[m²]`.
-    taken: BTreeMap<usize, f64>,
-}
-
-impl Given {
-    fn of(definition: &InterfaceDefinition) -> Self {
-        let mut given = Given::default();
-        let Some(mortar) = &definition.mortar else {
-            return given;
-        };
-        if !mortar.faces.iter().any(|face| face.held.contains(&true)) {
-            return given;
-        }
-        for point in 0..definition.points.len() {
-            let heirs = heirs(mortar, point);
-            for &(heir, area) in &heirs {
-                *given.taken.entry(heir).or_default() += area;
-            }
-            if heirs.iter().any(|(_, area)| *area > 0.0) {
-                given.heirs.push((point, heirs));
-            }
-        }
-        given
-    }
-
-    /// Gives to these points what has added up per area where their part was taken: their surface has seen the same.
-    fn hand_back(&self, points: &mut [PointHistory]) {
-        for (point, heirs) in &self.heirs {
-            let whole: f64 = heirs.iter().map(|(_, area)| area).sum();
-            let mean = |of: fn(&PointHistory) -> f64| -> f64 {
-                let parts = heirs.iter().map(|&(k, area)| area * of(&points[k]));
-                parts.sum::<f64>() / whole
-            };
-            points[*point] = PointHistory {
-                worn: mean(|h| h.worn),
-                dissipated: mean(|h| h.dissipated),
-                path: mean(|h| h.path),
-                spent: mean(|h| h.spent),
-                ..points[*point]
-            };
-        }
-    }
 }
 
 /// What the committed history becomes: the trial, and what that adds to the energies.
@@ -116,6 +64,7 @@ pub fn commit(interface: &mut InterfaceForce, stage: &Stage) -> History {
     let state = input.state;
     let mut next = History {
         points: Vec::with_capacity(state.points.len()),
+        law_states: Vec::new(),
         acting: active && !cache.last.points.is_empty(),
         opposite: opposite(input.definition, &cache.last),
         start: Arc::clone(&state.start),
@@ -130,6 +79,7 @@ pub fn commit(interface: &mut InterfaceForce, stage: &Stage) -> History {
         creep: state.creep,
         cone,
     };
+    next.law_states = law_states(input, &cache.last, stage.dt);
     push(input.definition, &mut next, stage);
     if !next.acting {
         next.points
@@ -137,9 +87,7 @@ pub fn commit(interface: &mut InterfaceForce, stage: &Stage) -> History {
         next.energy.stored = 0.0;
         return next;
     }
-    let given = Given::of(input.definition);
     let increment = Increment {
-        given: &given,
         resolved: stage.rate.is_none() && !state.springs,
         belt: belt_path(input, stage),
         times: [stage.from.t, stage.at.t],
@@ -164,8 +112,7 @@ pub fn commit(interface: &mut InterfaceForce, stage: &Stage) -> History {
         dissipated += passed.dissipated * area;
         work += passed.work * area;
     }
-    share_what_adds_up(input.definition, last, &mut next.points);
-    given.hand_back(&mut next.points);
+    share_accumulated(input.definition, last, &mut next);
     if !state.start.overlap.is_empty() {
         Arc::make_mut(&mut next.start).overlap.clear();
     }
@@ -201,26 +148,60 @@ fn trust_multipliers(points: &mut [Evaluation]) {
     }
 }
 
-/// Gives to all points that move alike what has added up at the one of them that carries.
-fn share_what_adds_up(
-    definition: &InterfaceDefinition,
-    last: &Evaluations,
-    points: &mut [PointHistory],
-) {
+/// State variables of the friction law at the end of an increment: those that the law has answered at points in contact, and at the others what it makes of them while
+/// nothing touches.
+fn law_states(input: InterfaceInput, last: &Evaluations, dt: f64) -> Vec<LawState> {
+    let law = input.laws.friction_law();
+    let states = input.state.law_states.iter().enumerate();
+    states
+        .map(|(i, before)| match last.points.get(i) {
+            Some(e) if e.response.status != Status::Open => e.response.state,
+            _ => law.open_state(before, dt),
+        })
+        .collect()
+}
+
+/// Copies to all points that move alike the wear, slip, path and law states of the one of them that is in contact, and to points whose multiplier others have
+/// the wear, work, path and law states per area of these.
+fn share_accumulated(definition: &InterfaceDefinition, last: &Evaluations, next: &mut History) {
+    let (points, states) = (&mut next.points, &mut next.law_states);
     for (i, earlier) in definition.alike.iter().enumerate() {
         for &j in earlier {
-            match [i, j].map(|k| last.points[k].facet.is_some()) {
-                [true, false] => points[j] = points[i].handed_to(&points[j]),
-                [false, true] => points[i] = points[j].handed_to(&points[i]),
-                _ => {}
+            let (carries, other) = match [i, j].map(|k| last.points[k].facet.is_some()) {
+                [true, false] => (i, j),
+                [false, true] => (j, i),
+                _ => continue,
+            };
+            points[other] = points[carries].accumulated_into(&points[other]);
+            if !states.is_empty() {
+                states[other] = states[carries];
             }
         }
+    }
+    let merged = definition.mortar.iter().flat_map(|m| m.merged.all());
+    for (point, heirs) in merged {
+        let whole: f64 = heirs.iter().map(|(_, area)| area).sum();
+        let mean_of = |of: &dyn Fn(usize) -> f64| -> f64 {
+            let parts = heirs.iter().map(|&(k, area)| area * of(k));
+            parts.sum::<f64>() / whole
+        };
+        if !states.is_empty() {
+            states[point] = std::array::from_fn(|s| mean_of(&|k| states[k][s]));
+        }
+        let mean = |of: fn(&PointHistory) -> f64| mean_of(&|k| of(&points[k]));
+        points[point] = PointHistory {
+            worn: mean(|h| h.worn),
+            dissipated: mean(|h| h.dissipated),
+            path: mean(|h| h.path),
+            spent: mean(|h| h.spent),
+            ..points[point]
+        };
     }
 }
 
 impl PointHistory {
-    /// What adds up of this point, with the rest of the other.
-    fn handed_to(&self, other: &Self) -> Self {
+    /// The accumulated history of this point with the status and gap of the other.
+    fn accumulated_into(&self, other: &Self) -> Self {
         PointHistory {
             status: other.status,
             gap: other.gap,
@@ -338,7 +319,7 @@ fn pass(
     let path = sliding_distance(interface.definition, r, e.frames.before, e.moved);
     let pressed = (0.5 * (h.pressure + r.traction[0]) * path).max(0.0);
     let worn = wear_increment(interface, h, e, pressed, dissipated, dt);
-    let taken = increment.given.taken.get(&i).copied().unwrap_or(0.0);
+    let taken = (interface.mortar.as_ref()).map_or(0.0, |mortar| mortar.merged.taken(i));
     let whole = (interface.points[i].area + taken) * interface.share;
     let covered = if whole > 0.0 { e.area / whole } else { 0.0 };
     // Slip so far goes along with the surface, as tractions do.

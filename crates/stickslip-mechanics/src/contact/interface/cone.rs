@@ -50,6 +50,8 @@ pub(super) fn friction_error(interface: &InterfaceForce, stage: &Stage) -> Cone 
                     penetration: (-e.gap).max(0.0),
                     speed,
                     sticking: before.status != Status::Slip,
+                    dt: stage.dt,
+                    state: interface.state.law_state(i),
                 });
                 match limit.d_speed == 0.0 {
                     true => limit.value,

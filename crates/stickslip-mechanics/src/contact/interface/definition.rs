@@ -6,6 +6,7 @@ use super::history::History;
 use super::hollows::Hollows;
 use super::initial::Initial;
 use crate::contact::kinematics::KinematicsModel;
+use crate::contact::law::friction::LawState;
 use crate::contact::mortar::Mortar;
 use crate::contact::obstacle::{Motion, ObstacleShape};
 use crate::contact::response::Laws;
@@ -239,7 +240,11 @@ impl InterfaceDefinition {
             None => self.points.len(),
         };
         let opposite = facets * facet.unwrap_or(0);
-        History::bytes(self.points.len(), opposite, self.nodes.len())
+        let states = match self.laws.friction_law().states() {
+            [] => 0,
+            _ => self.points.len() * size_of::<LawState>(),
+        };
+        History::bytes(self.points.len(), opposite, self.nodes.len()) + states
     }
 
     /// Memory that what goes into a factor takes, point by point `[bytes]`, about: its dofs twice, and a matrix over them.

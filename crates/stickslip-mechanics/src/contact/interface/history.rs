@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::ground::Depths;
+use crate::contact::law::friction::{FrictionLaw, LawState};
 use crate::contact::response::Status;
 use crate::math::Vec3;
 use crate::system::Energy;
@@ -14,6 +15,8 @@ pub struct History {
     pub(in crate::contact) points: Vec<PointHistory>,
     /// Whether the points are those of an evaluation: not before the first commit, nor while the interface does not act.
     pub(in crate::contact) acting: bool,
+    /// State variables of the friction law by contact point; empty where it has none.
+    pub(in crate::contact) law_states: Vec<LawState>,
     /// Where points lay over the primary.
     pub(in crate::contact) opposite: Opposite,
     /// What was found when the interface began to act.
@@ -126,12 +129,27 @@ pub(in crate::contact) struct Cone {
 }
 
 impl History {
-    /// That of so many points to which nothing has happened yet.
-    pub fn new(points: usize) -> Self {
-        History {
+    /// That of so many points under a friction law to which nothing has happened yet.
+    pub fn new(points: usize, law: &dyn FrictionLaw) -> Self {
+        let mut history = History {
             points: vec![PointHistory::default(); points],
             ..History::default()
-        }
+        };
+        history.begin_law(law);
+        history
+    }
+
+    /// Gives points the state variables with which the friction law begins.
+    pub fn begin_law(&mut self, law: &dyn FrictionLaw) {
+        self.law_states = match law.states().is_empty() {
+            true => Vec::new(),
+            false => vec![law.initial_state(); self.points.len()],
+        };
+    }
+
+    /// State variables of the friction law at a point; zeros where it has none.
+    pub(in crate::contact) fn law_state(&self, i: usize) -> LawState {
+        self.law_states.get(i).copied().unwrap_or_default()
     }
 
     /// Takes note of the gaps `[m]` of points that do not take part.
@@ -152,6 +170,7 @@ impl History {
     #[cfg(test)]
     pub(in crate::contact) fn taken(&self) -> usize {
         size_of_val(self.points.as_slice())
+            + size_of_val(self.law_states.as_slice())
             + size_of_val(self.opposite.ends.as_slice())
             + size_of_val(self.opposite.nodes.as_slice())
             + size_of_val(self.nodal.as_slice())

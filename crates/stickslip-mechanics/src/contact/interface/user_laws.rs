@@ -6,11 +6,12 @@ use super::definition::InterfaceDefinition;
 use super::evaluate::evaluate_points;
 use super::evaluation::{Evaluations, Question};
 use super::scene::{LawQuery, Scene, Wants};
+use crate::contact::law::friction::FrictionLaw;
 use crate::contact::law::user::{
     LimitFunction, PressureFunction, UserFriction, UserLaws, UserNormal,
 };
 use crate::contact::pairing::Anchor;
-use crate::contact::response::{Answers, Laws};
+use crate::contact::response::{Answers, Laws, OwnFriction};
 
 /// Negative limit relative to the pressure that is none.
 const ROUNDING: f64 = 1e-12;
@@ -30,6 +31,18 @@ pub fn with_user_laws(
     };
     interface.with_laws(Laws {
         user,
+        ..interface.laws.clone()
+    })
+}
+
+/// The interface with a friction law of the program in place of that of the problem, which may keep [state variables](FrictionLaw::states). To be asked for before
+/// the analysis begins.
+pub fn with_friction_law(
+    interface: &InterfaceDefinition,
+    law: Arc<dyn FrictionLaw>,
+) -> InterfaceDefinition {
+    interface.with_laws(Laws {
+        own_friction: Some(OwnFriction(law)),
         ..interface.laws.clone()
     })
 }

@@ -1,5 +1,6 @@
 //! Output fields of an interface.
 
+use super::table::law_states;
 use super::values::{MEANS, shown_means, values};
 use crate::contact::interface::view::ContactView;
 use crate::math::{Vec3, add_scaled, scale};
@@ -97,8 +98,8 @@ fn sums(contact: ContactView) -> Vec<Sums> {
     sums
 }
 
-/// Adds what sliding has left: CDISS, the energy dissipated per area `[J/m²]`, where there is friction, and CWEAR, the depth worn off
-/// `[m]`, where wear is followed.
+/// Adds what sliding has left: CDISS, the energy dissipated per area `[J/m²]`, where there is friction, CWEAR, the depth worn off
+/// `[m]`, where wear is followed, and the state variables of the friction law at the side with the points.
 fn add_traces(contact: ContactView, out: &mut Fields) {
     let points = contact.dofs.points;
     let mut sums = vec![[0.0; 3]; contact.nodes.len()];
@@ -115,6 +116,22 @@ fn add_traces(contact: ContactView, out: &mut Fields) {
         ("CDISS", 0, contact.laws.friction_law().frictional()),
         ("CWEAR", 1, contact.laws.wear.as_dyn().active()),
     ];
+    for (name, values) in law_states(contact) {
+        let mut sums = vec![[0.0; 2]; contact.nodes.len()];
+        for (i, value) in values.iter().enumerate() {
+            for (node, w) in contact.own_weights(i) {
+                let share = contact.area_of(i) * w.max(0.0);
+                sums[node][0] += share * value;
+                sums[node][1] += share;
+            }
+        }
+        let field = out.shared(&name, Location::Point, 1, points, f64::NAN);
+        for (sum, &node) in sums.iter().zip(&contact.nodes) {
+            if sum[1] > 0.0 {
+                field.values[node] = sum[0] / sum[1];
+            }
+        }
+    }
     for (name, k, followed) in kinds {
         if !followed {
             continue;

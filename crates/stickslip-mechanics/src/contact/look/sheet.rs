@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use crate::contact::interface::Primary;
 use crate::contact::interface::view::ContactView;
+use crate::contact::law::friction::LawState;
 use crate::math::{Vec3, add, add_scaled, normalize, scale, sub};
 use crate::shape::ElementKind;
 use crate::system::{Field, Fields, Location};
@@ -44,6 +45,8 @@ struct Shown {
     status: f64,
     dissipated: f64,
     worn: f64,
+    /// State variables of the friction law.
+    law_state: LawState,
 }
 
 /// The surface with U, UREL, by how much it has moved more than what lies opposite now (not a number where nothing does), CPRESS, CSHEAR1/2, COPEN, CSLIP1/2, CSTATUS (0 open, 1 stick, 2 slip), CDISS, CWEAR, and as vectors CNORMAL, out of the primary,
@@ -86,6 +89,10 @@ pub fn sheet(contact: ContactView, u: &[f64], t: f64) -> Sheet {
     }
     if contact.laws.wear.as_dyn().active() {
         push("CWEAR", 1, shown.iter().map(|s| s.worn).collect());
+    }
+    for (k, variable) in contact.laws.friction_law().states().iter().enumerate() {
+        let values = shown.iter().map(|s| s.law_state[k]);
+        push(variable.name, 1, values.collect());
     }
     Sheet {
         points: corners.iter().map(|c| add(c.x, contact.origin)).collect(),
@@ -180,6 +187,7 @@ fn shown(contact: ContactView, corner: &Corner) -> Shown {
         status: 0.0,
         dissipated: 0.0,
         worn: 0.0,
+        law_state: LawState::default(),
     };
     let (mut sum, mut facing, mut largest) = (0.0, 0.0, 0.0);
     for &(i, w) in &corner.points {
@@ -191,6 +199,9 @@ fn shown(contact: ContactView, corner: &Corner) -> Shown {
         shown.normal = add_scaled(shown.normal, w, values.normal);
         shown.dissipated += w * h.dissipated;
         shown.worn += w * h.worn;
+        for (total, value) in shown.law_state.iter_mut().zip(contact.state.law_state(i)) {
+            *total += w * value;
+        }
         if w > largest {
             (largest, shown.status) = (w, values.status);
         }
@@ -216,5 +227,6 @@ fn shown(contact: ContactView, corner: &Corner) -> Shown {
     }
     shown.dissipated /= sum;
     shown.worn /= sum;
+    shown.law_state = shown.law_state.map(|total| total / sum);
     shown
 }

@@ -55,7 +55,18 @@ pub fn table(contact: ContactView, u: &[f64]) -> (Vec<String>, Vec<Vec<f64>>) {
     first
         .chain(means)
         .chain(LAST.into_iter().map(column))
+        .chain(law_states(contact))
         .unzip()
+}
+
+/// The state variables of the friction law, by name with one entry a point.
+pub(super) fn law_states(contact: ContactView) -> impl Iterator<Item = (String, Vec<f64>)> {
+    let states = contact.laws.friction_law().states().iter().enumerate();
+    states.map(move |(k, variable)| {
+        let points = 0..contact.points.len();
+        let values = points.map(|i| contact.state.law_state(i)[k]);
+        (variable.name.to_string(), values.collect())
+    })
 }
 
 fn rows(contact: ContactView, u: &[f64]) -> Vec<Row> {

@@ -1,7 +1,6 @@
 //! What is shown of a contact point, in fields and in the table: one list of names and values.
 
 use crate::contact::interface::view::ContactView;
-use crate::contact::mortar::heirs;
 use crate::contact::response::Status;
 use crate::math::{Vec3, add_scaled, cross, dot, normalize, scale};
 
@@ -68,11 +67,8 @@ pub(super) fn shown_means(contact: ContactView) -> &'static [Shown] {
 /// What is shown of a point. One without a multiplier, as its motion is given, shows what the one of those that took its part has that presses most.
 pub(super) fn values(contact: ContactView, i: usize) -> PointValues {
     let own = own_values(contact, i);
-    let heirs = match &contact.mortar {
-        Some(mortar) => heirs(mortar, i),
-        None => Vec::new(),
-    };
-    let of = heirs.into_iter().map(|(k, _)| own_values(contact, k));
+    let heirs = (contact.mortar.as_ref()).map_or(&[][..], |mortar| mortar.merged.heirs(i));
+    let of = heirs.iter().map(|&(k, _)| own_values(contact, k));
     // Over nothing there is nothing to show.
     let of = of.filter(|v| v.gap.is_finite());
     match of.max_by(|a, b| a.pressure.abs().total_cmp(&b.pressure.abs())) {

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::merged_points::MergedPoints;
 use crate::contact::surface::edges;
 use crate::math::{Vec3, dot};
 use crate::shape::ElementKind;
@@ -41,6 +42,8 @@ pub struct Mortar {
     pub faces: Vec<Face>,
     /// Faces around each contact point, and its position among their nodes.
     pub around: Vec<Vec<(usize, usize)>>,
+    /// Points without a multiplier; none before held nodes have been marked.
+    pub merged: MergedPoints,
 }
 
 impl Mortar {
@@ -53,7 +56,11 @@ impl Mortar {
                 around[point].push((f, a));
             }
         }
-        Mortar { faces, around }
+        Mortar {
+            faces,
+            around,
+            merged: MergedPoints::default(),
+        }
     }
 }
 

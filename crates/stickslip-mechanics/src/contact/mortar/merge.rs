@@ -8,6 +8,7 @@
 //! part that is covered. What its constraint asks for would act on next to no area. Its part is taken by the neighbours as well.
 
 use super::face::{FACE_NODES, Face, Mortar};
+use super::merged_points::MergedPoints;
 use crate::shape::ElementKind;
 
 /// Which nodes of a face have no multiplier: a bit a node.
@@ -37,9 +38,24 @@ pub fn merged(faces: &[Face], covered: &[f64]) -> Vec<Merged> {
     faces.iter().map(of).collect()
 }
 
+/// The points without a multiplier of a mortar whose held nodes are marked.
+pub fn merged_points(mortar: &Mortar) -> MergedPoints {
+    let mut merged = MergedPoints::default();
+    for point in 0..mortar.around.len() {
+        let heirs = heirs(mortar, point);
+        for &(heir, area) in &heirs {
+            *merged.taken.entry(heir).or_default() += area;
+        }
+        if heirs.iter().any(|(_, area)| *area > 0.0) {
+            merged.heirs.insert(point, heirs);
+        }
+    }
+    merged
+}
+
 /// The points that take the part of a point whose own motion is given on all faces around it, once for each face that they share, with the area `[m²]` that they take;
 /// none where it keeps its multiplier.
-pub fn heirs(mortar: &Mortar, point: usize) -> Vec<(usize, f64)> {
+fn heirs(mortar: &Mortar, point: usize) -> Vec<(usize, f64)> {
     let around = &mortar.around[point];
     let gives = |&(f, a): &(usize, usize)| {
         let held = &mortar.faces[f].held;

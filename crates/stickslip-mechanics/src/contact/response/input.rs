@@ -1,6 +1,6 @@
 //! What laws are told of a point and an increment, beside gap and slip.
 
-use crate::contact::law::friction::Limit;
+use crate::contact::law::friction::{LawState, Limit};
 use crate::math::Slope;
 
 /// What one evaluation of the laws needs beside the stencil.
@@ -22,6 +22,8 @@ pub struct LawInput {
     pub closing: f64,
     /// Whether the point did not slide at the last accepted state.
     pub sticking: bool,
+    /// State variables of the friction law at the last accepted state.
+    pub state: LawState,
     /// Asked is what the point would do if it was pressed and stuck: in contact even if that takes tension, sticking even beyond the limit, and under a load
     /// that counts. A law that is hardly touched answers with the line that touches it where it is as stiff as the body.
     pub pressed: bool,

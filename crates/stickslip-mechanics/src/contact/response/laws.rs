@@ -1,5 +1,8 @@
 //! The laws that act together at an interface.
 
+use std::fmt;
+use std::sync::Arc;
+
 use crate::contact::enforcement::{EnforcementModel, Multipliers};
 use crate::contact::law::damping::DampingModel;
 use crate::contact::law::friction::{FrictionLaw, FrictionModel};
@@ -29,6 +32,24 @@ pub struct Laws {
     pub feedback: Feedback,
     /// Laws of the program that take the place of `normal` and `friction`.
     pub user: UserLaws,
+    /// A law of the program that takes the place of `friction`, and is asked like it.
+    pub own_friction: Option<OwnFriction>,
+}
+
+/// A friction law of the program, as its type has it.
+#[derive(Clone)]
+pub struct OwnFriction(pub Arc<dyn FrictionLaw>);
+
+impl fmt::Debug for OwnFriction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("OwnFriction")
+    }
+}
+
+impl PartialEq for OwnFriction {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
 }
 
 impl Laws {
@@ -44,10 +65,10 @@ impl Laws {
                 .normal
                 .as_ref()
                 .map_or(self.normal.kind(), |_| "own"),
-            self.user
-                .friction
-                .as_ref()
-                .map_or(self.friction.kind(), |_| "own"),
+            match self.own_friction.is_some() || self.user.friction.is_some() {
+                true => "own",
+                false => self.friction.kind(),
+            },
             self.slip.kind(),
             self.enforcement.kind()
         )
@@ -63,9 +84,10 @@ impl Laws {
 
     /// The friction law that counts.
     pub fn friction_law(&self) -> &dyn FrictionLaw {
-        match &self.user.friction {
-            Some(user) => user,
-            None => self.friction.as_dyn(),
+        match (&self.own_friction, &self.user.friction) {
+            (Some(own), _) => own.0.as_ref(),
+            (None, Some(user)) => user,
+            (None, None) => self.friction.as_dyn(),
         }
     }
 

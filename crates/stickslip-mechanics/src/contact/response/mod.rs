@@ -7,5 +7,5 @@ mod respond;
 mod shear;
 
 pub use input::{Answers, Kept, LawInput, Sliding, Stiffnesses, Worn};
-pub use laws::Laws;
+pub use laws::{Laws, OwnFriction};
 pub use outcome::{Response, Status};

@@ -1,5 +1,7 @@
 //! What laws answer: traction with its derivatives, and status.
 
+use crate::contact::law::friction::LawState;
+
 /// Status of a contact point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, crate::keep::Keep)]
 pub enum Status {
@@ -27,7 +29,9 @@ pub struct Response {
     pub d_multiplier: [[f64; 3]; 3],
     /// Largest shear `[Pa]`.
     pub limit: f64,
-    /// By how much that grows with the pressure, directly and through the penetration `[-]`.
+    /// State variables of the friction law at the end of the increment.
+    pub state: LawState,
+    /// By how much the limit grows with the pressure, directly and through the penetration `[-]`.
     pub d_limit: f64,
     /// Open, stick or slip.
     pub status: Status,

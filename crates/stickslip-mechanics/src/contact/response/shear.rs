@@ -42,18 +42,14 @@ fn sliding(limit: f64, motion: &Tangential) -> SlipState {
     if path <= 0.0 {
         return SlipState::default();
     }
-    let m = motion.slip.map(|s| -s / path);
-    let slope = motion.length_slope(motion.slip, path);
-    let unit = |i: usize, j: usize| if i == j { 1.0 } else { 0.0 };
-    let turns = |i: usize, j: usize| -limit / path * (unit(i, j) + m[i] * slope[j]);
-    let [a, b] = motion.slip;
-    // d|s|/dskew = s₁ s₂ / |s|
-    let stretch = a * b / path;
+    let slips = motion
+        .cone(limit)
+        .boundary(motion.slip.map(|s| -s), path, -1.0);
     SlipState {
-        traction: m.map(|m| limit * m),
-        d_slip: [0, 1].map(|i| [0, 1].map(|j| turns(i, j))),
-        d_limit: m,
-        d_skew: m.map(|m| -limit * m * stretch / path),
+        traction: slips.shear,
+        d_slip: slips.d_motion,
+        d_limit: slips.d_limit,
+        d_skew: slips.d_skew,
         sliding: true,
         sliding_path: motion.slip,
     }
@@ -90,6 +86,8 @@ impl Laws {
             penetration: (-stencil.gap - at.worn.depth(pressure)).max(0.0),
             speed: path / at.dt,
             sticking: at.sticking,
+            dt: at.dt,
+            state: at.state,
         }
     }
 
@@ -120,6 +118,7 @@ impl Laws {
             (false, false) => rule.traction(limit.value, &motion),
         };
         response.limit = limit.value;
+        response.state = limit.state;
         response.sliding_path = at.slip.path.unwrap_or(shear.sliding_path);
         if shear.sliding {
             response.status = Status::Slip;

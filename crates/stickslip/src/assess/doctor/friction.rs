@@ -12,11 +12,6 @@ pub(super) fn friction_coefficient(interface: &InterfaceDefinition) -> Option<f6
     }
     let point = interface.points.first()?;
     let pressure = 1e-3 * point.stiffness * point.size;
-    let limit = law.limit(&FrictionPoint {
-        pressure,
-        penetration: 0.0,
-        speed: 0.0,
-        sticking: true,
-    });
+    let limit = law.limit(&FrictionPoint::at_rest(law, pressure));
     (pressure > 0.0).then(|| limit.value / pressure)
 }

@@ -391,6 +391,7 @@ fn chosen(table: &Table) -> Laws {
         wear: table.wear.clone(),
         feedback: table.wear_feedback,
         user: Default::default(),
+        own_friction: None,
     }
 }
 

@@ -8,6 +8,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::body::couplings::{Coupling, Row, Tie};
 use crate::contact::interface::InterfaceDefinition;
+use crate::contact::mortar::merged_points;
 use crate::contact::surface::ContactPoint;
 use crate::math::{Vec3, dot, symmetric_eigen};
 use crate::model::Support;
@@ -219,6 +220,7 @@ impl<'a> HeldNodes<'a> {
                 };
             }
         }
+        mortar.merged = merged_points(mortar);
         if tied {
             let own = &interface.nodes[interface.primary_nodes..];
             self.tied.extend(own);

@@ -1,5 +1,20 @@
 //! What a friction law is asked and says.
 
+/// Most state variables of a friction law.
+pub const MOST_STATES: usize = 4;
+
+/// State variables of a friction law at a contact point, in the order of [`FrictionLaw::states`]; zero beyond them.
+pub type LawState = [f64; MOST_STATES];
+
+/// A number that a friction law keeps at each contact point from one increment to the next.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StateVariable {
+    /// Name of the field in results: `THETA`.
+    pub name: &'static str,
+    /// Unit, as in `s`.
+    pub unit: &'static str,
+}
+
 /// What a friction law may depend on.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct FrictionPoint {
@@ -11,9 +26,25 @@ pub struct FrictionPoint {
     pub speed: f64,
     /// The point stuck, or was open, at the last accepted state.
     pub sticking: bool,
+    /// Time since the last accepted state `[s]`.
+    pub dt: f64,
+    /// State variables at the last accepted state.
+    pub state: LawState,
 }
 
-/// The limit of the shear traction and its derivatives.
+impl FrictionPoint {
+    /// A point at rest under a pressure `[Pa]` to which nothing has happened yet.
+    pub fn at_rest(law: &dyn FrictionLaw, pressure: f64) -> Self {
+        FrictionPoint {
+            pressure,
+            sticking: true,
+            state: law.initial_state(),
+            ..FrictionPoint::default()
+        }
+    }
+}
+
+/// The limit of the shear traction and its derivatives. They are total ones: state variables follow pressure and speed within the increment.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Limit {
     /// Limit `[Pa]`, not negative.
@@ -24,6 +55,8 @@ pub struct Limit {
     pub d_penetration: f64,
     /// Derivative with respect to speed `[Pa s/m]`.
     pub d_speed: f64,
+    /// State variables at the end of the increment.
+    pub state: LawState,
 }
 
 impl Limit {
@@ -32,6 +65,7 @@ impl Limit {
         match cap {
             Some(cap) if self.value > cap => Limit {
                 value: cap,
+                state: self.state,
                 ..Limit::default()
             },
             _ => self,
@@ -43,6 +77,23 @@ impl Limit {
 pub trait FrictionLaw: Send + Sync {
     /// The limit at a point in contact.
     fn limit(&self, at: &FrictionPoint) -> Limit;
+
+    /// The state variables that a point keeps, at most [`MOST_STATES`]; most laws have none. The law is asked with those of the last accepted state, and answers with
+    /// those at the end of the increment, solved together with the limit.
+    fn states(&self) -> &'static [StateVariable] {
+        &[]
+    }
+
+    /// State variables before anything has happened.
+    fn initial_state(&self) -> LawState {
+        LawState::default()
+    }
+
+    /// State variables of a point that was open for a time `dt` `[s]`.
+    fn open_state(&self, state: &LawState, dt: f64) -> LawState {
+        let _ = dt;
+        *state
+    }
 
     /// `false` if there is never any shear traction; saves the tangential unknowns.
     fn frictional(&self) -> bool {

@@ -12,7 +12,7 @@ mod tabular;
 pub use coulomb::Coulomb;
 pub use exponential_decay::ExponentialDecay;
 pub use frictionless::Frictionless;
-pub use law::{FrictionLaw, FrictionPoint, Limit};
+pub use law::{FrictionLaw, FrictionPoint, LawState, Limit, MOST_STATES, StateVariable};
 pub use power_law::PowerLaw;
 pub use static_kinetic::StaticKinetic;
 pub use stribeck::Stribeck;
@@ -60,6 +60,7 @@ mod tests {
                         penetration,
                         speed,
                         sticking,
+                        ..FrictionPoint::default()
                     });
                 }
             }
@@ -122,6 +123,7 @@ mod tests {
                             penetration: 1e-6,
                             speed,
                             sticking,
+                            ..FrictionPoint::default()
                         });
                         let all = [
                             limit.value,

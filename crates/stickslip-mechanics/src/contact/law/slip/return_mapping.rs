@@ -26,29 +26,14 @@ impl SlipRule for ReturnMapping {
                 ..SlipState::default()
             };
         }
-        // t = limit m with m = trial / |trial|
-        let m = [trial[0] / size, trial[1] / size];
-        let slope = motion.length_slope(trial, size);
-        let traction = [limit * m[0], limit * m[1]];
-        let mut d_slip = [[0.0; 2]; 2];
-        for i in 0..2 {
-            for j in 0..2 {
-                let unit = if i == j { 1.0 } else { 0.0 };
-                d_slip[i][j] = -w * limit / size * (unit - m[i] * slope[j]);
-            }
-        }
-        // d|trial|/dskew = trial₁ trial₂ / |trial|
-        let d_size = trial[0] * trial[1] / size;
+        let slips = motion.cone(limit).boundary(trial, size, -w);
         SlipState {
-            traction,
-            d_slip,
-            d_limit: m,
-            d_skew: [-traction[0] * d_size / size, -traction[1] * d_size / size],
+            traction: slips.shear,
+            d_slip: slips.d_motion,
+            d_limit: slips.d_limit,
+            d_skew: slips.d_skew,
             sliding: true,
-            sliding_path: [
-                motion.slip[0] + (traction[0] - motion.base[0]) / w,
-                motion.slip[1] + (traction[1] - motion.base[1]) / w,
-            ],
+            sliding_path: [0, 1].map(|i| motion.slip[i] + (slips.shear[i] - motion.base[i]) / w),
         }
     }
 

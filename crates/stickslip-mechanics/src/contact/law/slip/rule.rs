@@ -1,9 +1,10 @@
 //! What a slip rule is asked and says.
 
+use crate::friction::cone::Cone;
+
 /// The tangential motion of a contact point over an increment, in the two directions of its frame.
 ///
-/// The frame of the paper's kinematics is not orthogonal: `skew` is the cosine of the angle between its directions and
-/// lengths are measured by `|v|² = v₁² + v₂² + 2 skew v₁ v₂`. It is zero for all other kinematics.
+/// The frame of the paper's kinematics is not orthogonal; lengths are those of a [`Cone`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Tangential {
     /// Displacement of the secondary relative to the primary surface since the last accepted state `[m]`.
@@ -22,19 +23,22 @@ pub struct Tangential {
 }
 
 impl Tangential {
-    /// `v₁² + v₂² + 2 skew v₁ v₂`, and its root.
+    /// The shear that a limit `[Pa]` allows.
+    pub fn cone(&self, limit: f64) -> Cone {
+        Cone {
+            limit,
+            skew: self.skew,
+        }
+    }
+
+    /// Length of a vector along the two directions, see [`Cone`].
     pub fn length(&self, v: [f64; 2]) -> f64 {
-        (v[0] * v[0] + v[1] * v[1] + 2.0 * self.skew * v[0] * v[1])
-            .max(0.0)
-            .sqrt()
+        self.cone(0.0).length(v)
     }
 
     /// The derivative of `length(v)` with respect to `v`, for a length that is not zero.
     pub fn length_slope(&self, v: [f64; 2], length: f64) -> [f64; 2] {
-        [
-            (v[0] + self.skew * v[1]) / length,
-            (v[1] + self.skew * v[0]) / length,
-        ]
+        self.cone(0.0).length_slope(v, length)
     }
 }
 

@@ -99,12 +99,7 @@ fn function(interface: &InterfaceDefinition) -> Option<Finding> {
     if let Some(law) = &own.friction {
         for part in TRIED {
             let pressure = part * stiffness * size;
-            let limit = law.limit(&FrictionPoint {
-                pressure,
-                penetration: 0.0,
-                speed: 0.0,
-                sticking: true,
-            });
+            let limit = law.limit(&FrictionPoint::at_rest(law, pressure));
             if limit.value.is_nan() || limit.value < 0.0 {
                 return Some(new(
                     format!(
