@@ -15,6 +15,19 @@ pub fn page(binary: &Path) -> Result<String, String> {
     Ok(page)
 }
 
+/// The page of what goes with what, as the binary prints it.
+pub fn combinations(binary: &Path) -> Result<String, String> {
+    let output = Command::new(binary)
+        .args(["models", "--matrix"])
+        .output()
+        .map_err(|e| format!("cannot run {}: {e}", binary.display()))?;
+    Ok(format!(
+        "# What goes with what\n\n<!-- Generated from `stickslip models --matrix` by `cargo xtask book`. -->\n\n\
+         Columns are the ways in which a body is described, and friction laws that keep a state; a number points to the reason below. Refusals follow from the same table.\n\n{}",
+        String::from_utf8_lossy(&output.stdout)
+    ))
+}
+
 /// The help of a command, and of the commands within it.
 fn sections(page: &mut String, binary: &Path, command: &[&str]) -> Result<(), String> {
     let all = help(binary, command)?;

@@ -2,6 +2,7 @@
 //!
 //! - `reference/*.md`, the keys of the problem file, from `stickslip.schema.json`;
 //! - `reference/command-line.md`, from the help of the commands;
+//! - `reference/combinations.md`, from `stickslip models --matrix`;
 //! - `verification.md`, from running all examples (`--verification` only, as that takes minutes).
 //!
 //! Generated pages are committed, so that they can be read where the sources are; tests fail when they are stale.
@@ -36,6 +37,10 @@ pub fn build(what: &[String]) -> Result<(), String> {
     write(
         &source().join("reference/command-line.md"),
         &commands::page(&workspace::stickslip()?)?,
+    )?;
+    write(
+        &source().join("reference/combinations.md"),
+        &commands::combinations(&workspace::stickslip()?)?,
     )?;
     if measure {
         write(

@@ -1,6 +1,7 @@
 use std::process::ExitCode;
 
 use serde_json::Value;
+use stickslip::model::capability::matrix;
 use stickslip::problem::{FamilyListing, families, nearest};
 
 use super::completions::Words;
@@ -16,6 +17,9 @@ pub struct Arguments {
     /// A family (`friction`), an entry (`coulomb`), or both (`friction.coulomb`).
     #[arg(value_parser = Words(names), hide_possible_values = true)]
     name: Option<String>,
+    /// Print what goes with what: steps, methods, loads and supports against the ways in which bodies turn.
+    #[arg(long, conflicts_with = "name")]
+    matrix: bool,
 }
 
 /// Families and entries, for completions.
@@ -32,6 +36,10 @@ fn names() -> Vec<&'static str> {
 
 /// Prints the listing.
 pub fn run(arguments: &Arguments) -> Outcome {
+    if arguments.matrix {
+        print::out(&matrix())?;
+        return Ok(ExitCode::SUCCESS);
+    }
     let families = families();
     let Some(name) = &arguments.name else {
         let text: Vec<String> = families.iter().map(family).collect();

@@ -33,7 +33,8 @@ impl<'a> View<'a> {
             (None, None) => return self.external_forces(),
         };
         out.iter_mut().zip(contact).for_each(|(out, c)| *out += c);
-        (self.model).add_thermal_forces(self.frame.state.t, -1.0, &mut out);
+        let t = self.frame.state.t;
+        (self.frame).add_thermal_forces(self.model, t, -1.0, &mut out);
         // Equations act like contact and do not count as what resists.
         self.couplings().add_equation_forces(&mut out);
         out

@@ -110,8 +110,16 @@ impl Frame {
     /// The same where bodies that turn are where displacements have led them.
     pub(crate) fn external_at(&self, model: &Model, t: f64, u: &[f64]) -> Vec<f64> {
         let mut external = self.loads_at(model, t, u);
-        model.add_thermal_forces(t, 1.0, &mut external);
+        self.add_thermal_forces(model, t, 1.0, &mut external);
         external
+    }
+
+    /// Adds so many times what temperatures at a time and second fields press with to `out` `[N]`, by dof.
+    pub(crate) fn add_thermal_forces(&self, model: &Model, t: f64, times: f64, out: &mut [f64]) {
+        model.add_thermal_forces(t, times, out);
+        for (field, values) in model.actions.fields.iter().zip(&self.fields) {
+            field.add_forces(values, times, out);
+        }
     }
 
     /// External forces at a time, with the fading forces of supports that let go in this step; those on the points of rigid bodies act on

@@ -7,6 +7,7 @@ use super::cycling::Cycling;
 use super::heat::Heat;
 use super::limits::Limits;
 use super::modal::{KickPlan, Modal, SteadyPlan};
+use super::second_field::SecondField;
 use crate::body::loads::{Load, Spring};
 use crate::body::{Elastic, MassKind, Space};
 use crate::contact::interface::{Change, Steady};
@@ -64,6 +65,8 @@ pub struct Actions {
     pub loads: Vec<Load>,
     /// Temperatures, where some are given.
     pub heat: Option<Heat>,
+    /// Fields beside the displacements.
+    pub fields: Vec<Arc<dyn SecondField>>,
     /// Springs to ground.
     pub springs: Vec<Spring>,
     /// Masses at points beside those of the cells `[kg]`.

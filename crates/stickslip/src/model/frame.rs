@@ -41,6 +41,8 @@ pub struct Frame {
     pub block: Block,
     /// Stress over the cycle at hand, and what criteria of fatigue said of the last, where they are asked.
     pub fatigue: Record,
+    /// Values of the fields beside the displacements, by field and dof.
+    pub fields: Vec<Vec<f64>>,
     /// The mode along which the last motion began.
     pub kick: Option<Kick>,
     /// Energies: what there is, and where it came from and went.

@@ -1,6 +1,7 @@
 //! What is simulated and where it stands: data, and what acts at a time.
 
 pub(crate) mod anchors;
+pub mod capability;
 pub(crate) mod conditions;
 pub(crate) mod contact;
 pub(crate) mod course;
@@ -15,6 +16,7 @@ pub(crate) mod ledger;
 pub(crate) mod limits;
 pub(crate) mod modal;
 pub(crate) mod scene;
+pub(crate) mod second_field;
 pub(crate) mod setup;
 pub(crate) mod thermal;
 pub(crate) mod unheld;
@@ -36,4 +38,5 @@ pub use modal::{
     RealPlan, SteadyPlan,
 };
 pub use scene::Scene;
+pub use second_field::{FieldIncrement, SecondField};
 pub use setup::Setup;

@@ -8,8 +8,9 @@ use std::borrow::Cow;
 use super::contact::Contact;
 use super::definition::{Model, Step};
 use super::frame::Frame;
+use super::second_field::FieldIncrement;
 use crate::math::{add, cross, mat_vec, scale, sub};
-use crate::system::{Constraints, Fields, State};
+use crate::system::{Constraints, Field, Fields, Location, State};
 
 /// What is simulated and where it stands: enough to say what acts.
 #[derive(Clone, Copy)]
@@ -125,6 +126,35 @@ impl<'a> Scene<'a> {
         }
     }
 
+    /// Values of all second fields at the end of an increment of this length that the frame is at the end of.
+    pub(crate) fn advanced_fields(&self, dt: f64) -> Vec<Vec<f64>> {
+        let fields = self.model.actions.fields.iter().zip(&self.frame.fields);
+        let advanced = fields.map(|(field, before)| {
+            field.advance(&FieldIncrement {
+                contacts: self.contacts().collect(),
+                state: &self.frame.state,
+                before,
+                dt,
+            })
+        });
+        advanced.collect()
+    }
+
+    /// Adds the second fields that have values at the points of the mesh.
+    pub(crate) fn add_second_fields(&self, out: &mut Fields) {
+        for (field, values) in self.model.actions.fields.iter().zip(&self.frame.fields) {
+            let dofs = field.dofs();
+            if dofs.points == self.model.mesh.points.len() {
+                out.all.push(Field {
+                    name: field.name().to_string(),
+                    location: Location::Point,
+                    components: dofs.dim,
+                    values: values.clone(),
+                });
+            }
+        }
+    }
+
     /// Loads at a time: external forces that move bodies as wholes.
     pub(crate) fn loads(&self, t: f64) -> Vec<f64> {
         self.frame.loads(self.model, t)
@@ -152,7 +182,8 @@ impl<'a> Scene<'a> {
         let both = self.frame.forces.iter().zip(&self.frame.load);
         let mut out: Vec<f64> = both.map(|(reaction, load)| reaction + load).collect();
         // What bodies press with themselves, being warm, is none of it.
-        (self.model).add_thermal_forces(self.frame.state.t, -1.0, &mut out);
+        let t = self.frame.state.t;
+        (self.frame).add_thermal_forces(self.model, t, -1.0, &mut out);
         self.couplings().add_equation_forces(&mut out);
         out
     }

@@ -394,6 +394,7 @@ pub fn fields(view: &View) -> Fields {
         look::fields(interface, &mut fields);
     }
     fatigue::add_fields(view, &mut fields);
+    view.add_second_fields(&mut fields);
     fields
 }
 

@@ -5,6 +5,7 @@ use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::{ContactMemory, Frame};
 use crate::model::ledger::{EnergyLedger, Flow};
+use crate::model::scene::Scene;
 use crate::results::summary::Summary;
 use crate::solve::accepted::{Accepted, Effort};
 
@@ -27,6 +28,7 @@ pub(crate) fn book(
     let first = summary.attempts.increments == 0;
     frame.ledger = ledger_after(model, &*frame, contact, &frame.contacts, &accepted, first);
     frame.coupled = contact.coupled(frame).stored();
+    let dt = accepted.state.t - frame.state.t;
     frame.state = accepted.state;
     frame.forces = accepted.forces;
     frame.contact = accepted.contact;
@@ -34,6 +36,14 @@ pub(crate) fn book(
     if let Some(internal) = accepted.internal {
         frame.motion.internal = internal;
         frame.motion.travel = accepted.travel;
+    }
+    if !frame.fields.is_empty() {
+        let scene = Scene {
+            model,
+            contact,
+            frame,
+        };
+        frame.fields = scene.advanced_fields(dt);
     }
     if let Some(kick) = &mut frame.kick {
         kick.follow(&frame.state, frame.ledger.kinetic, effort.tally);

@@ -301,6 +301,7 @@ fn start(model: &Model, contact: &mut Contact, solver: &Solver) -> Frame {
         forces: vec![0.0; n],
         contact: vec![0.0; n],
         load: vec![0.0; n],
+        fields: model.actions.fields.iter().map(|f| f.initial()).collect(),
         ..Frame::default()
     };
     frame.ledger.initial = strain;

@@ -544,6 +544,10 @@ impl Simulation {
             self.tell(observers, || Event::Accepted(&advance))?;
         }
         self.go_on(pending, last, observers)?;
+        // What a second field presses with in the next increment follows from this one.
+        if !self.frame.fields.is_empty() {
+            self.flush(observers)?;
+        }
         if self.step().corners.contains(&trial.to) {
             self.reset_predictor();
         }

@@ -394,6 +394,20 @@ fn every_page_is_in_the_summary() {
 }
 
 #[test]
+fn the_page_of_what_goes_with_what_is_current() {
+    let page = read(&source().join("reference/combinations.md"));
+    let output = Command::new(env!("CARGO_BIN_EXE_stickslip"))
+        .args(["models", "--matrix"])
+        .output()
+        .expect("the binary runs");
+    let table = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(
+        table.len() > 1000 && page.ends_with(&table),
+        "run `cargo xtask book --pages`"
+    );
+}
+
+#[test]
 fn the_page_of_commands_is_current() {
     let page = read(&source().join("reference/command-line.md"));
     let output = Command::new(env!("CARGO_BIN_EXE_stickslip"))

@@ -249,6 +249,7 @@ impl Problem {
             actions: Actions {
                 loads,
                 heat,
+                fields: Vec::new(),
                 springs,
                 masses,
                 supports,

@@ -11,6 +11,7 @@ use crate::contact::interface::InterfaceDefinition;
 use crate::error::{Diagnostic, Error};
 use crate::math::identity;
 use crate::mesh::Mesh;
+use crate::model::capability::{Feature, Subject, limit};
 use crate::model::{Body, ContactAt, Step};
 use crate::system::{BodyFrame, BodyFrames, Carrier, Corotations, Dofs, Links};
 
@@ -72,11 +73,13 @@ pub(super) fn attach(
             continue;
         }
         if interface.kinematics.as_dyn().frozen() {
-            let message =
-                "pairs are those of the start, and a body of this interface turns by any angle";
             let key = format!("interface.{}.kinematics", interface.name);
-            let finding = Diagnostic::new(key, message).help("leave the key out");
-            return Err(problem_error(vec![finding]));
+            return refused(
+                key,
+                "a body of this interface",
+                Subject::Free,
+                Feature::SmallSliding,
+            );
         }
         // A plane in which supports hold points goes with them.
         for point in &mut interface.mesh_mut().points {
@@ -121,6 +124,15 @@ pub(super) fn refuse_ties(
     Err(problem_error(vec![finding]))
 }
 
+/// Refuses what a body of that kind does not go with, as the table of capabilities has it.
+fn refused(key: String, whose: &str, subject: Subject, feature: Feature) -> Result<(), Error> {
+    let Some(limit) = limit(subject, feature) else {
+        return Ok(());
+    };
+    let finding = Diagnostic::new(key, format!("{whose} {}", limit.why)).help(limit.help);
+    Err(problem_error(vec![finding]))
+}
+
 /// What bodies that turn cannot bear.
 pub(super) fn refuse(problem: &Problem, said: &Said, free: &Corotations) -> Result<(), Error> {
     let frames = said.frames;
@@ -129,10 +141,6 @@ pub(super) fn refuse(problem: &Problem, said: &Said, free: &Corotations) -> Resu
     }
     let dofs = frames.dofs();
     let of = |dof: usize| frames.of_point(dofs.locate(dof).0);
-    let fault = |key: String, message: &str, help: &str| {
-        let finding = Diagnostic::new(key, message.to_string()).help(help.to_string());
-        Err(problem_error(vec![finding]))
-    };
     let freely = |dof: usize| free.of_point(dofs.locate(dof).0).is_some();
     let rigid = |dof: usize| {
         let body = of(dof).map(|i| &frames.all()[i]);
@@ -143,25 +151,31 @@ pub(super) fn refuse(problem: &Problem, said: &Said, free: &Corotations) -> Resu
         let point = dofs.locate(dof).0;
         spun.iter().any(|(hidden, _)| hidden + 1 == point)
     };
+    let carried = |dof: usize| {
+        let point = dofs.locate(dof).0;
+        let mut bodies = said.bodies.iter().filter(|b| b.points.contains(&point));
+        bodies.any(|b| problem.body[&b.name].rotation.reference().is_some())
+    };
     for coupling in said.couplings {
         let mut rows = coupling.rows.iter().flat_map(|r| &r.dofs);
-        if rows.any(|&dof| freely(dof) || rigid(dof) || turned(dof)) {
-            return fault(
-                format!("coupling.{}", coupling.name),
-                "it acts on a body that turns freely by any angle",
-                "tie surfaces by an interface (`tied = true`), hold points of an elastic body by a support or let it turn by `rotation = \"corotational\"` in quasi-static steps, or let a reference point carry a rigid one",
-            );
+        if let Some(&dof) = rows.find(|&&dof| freely(dof) || rigid(dof) || turned(dof)) {
+            let key = format!("coupling.{}", coupling.name);
+            let subject = match carried(dof) {
+                true => Subject::RigidAxle,
+                false => Subject::Free,
+            };
+            return refused(key, "a body of this coupling", subject, Feature::Coupling);
         }
     }
     let springs = said.springs.iter().flat_map(|s| s.entries());
     if let Some(name) =
         (springs.map(|(dof, _)| *dof).find(|&dof| turned(dof))).and_then(|dof| said.named(dof))
     {
-        return fault(
-            format!("reference.{name}"),
-            "a spring against rotation in space is on a point that carries a rigid body",
-            "load it by a moment instead",
-        );
+        let message = "a spring against rotation in space is on a point that carries a rigid body";
+        let finding = Diagnostic::new(format!("reference.{name}"), message);
+        return Err(problem_error(vec![
+            finding.help("load it by a moment instead"),
+        ]));
     }
     for support in said.supports {
         let held: BTreeSet<usize> = support.entries.iter().map(|e| e.dof).collect();
@@ -170,10 +184,12 @@ pub(super) fn refuse(problem: &Problem, said: &Said, free: &Corotations) -> Resu
             dofs.of(point, 0)..dofs.of(point + 1, 0)
         });
         if loose.any(|dof| !held.contains(&dof)) {
-            return fault(
-                format!("support.{}", support.name),
-                "it holds points of a body that turns freely by any angle, and not in all directions",
-                "hold the points in all directions, let a frictionless interface guide the body, or, in quasi-static steps, take `rotation = \"corotational\"`",
+            let key = format!("support.{}", support.name);
+            return refused(
+                key,
+                "a body of this support",
+                Subject::Free,
+                Feature::PartialSupport,
             );
         }
     }
@@ -182,10 +198,12 @@ pub(super) fn refuse(problem: &Problem, said: &Said, free: &Corotations) -> Resu
             let mut bodies = row.dofs.iter().map(|&dof| of(dof));
             let first = bodies.next().flatten();
             if bodies.any(|body| body != first) {
-                return fault(
-                    format!("coupling.{}", coupling.name),
-                    "it joins a body that turns by any angle to something that does not turn with it",
-                    "tie surfaces by an interface (`tied = true`), or support the body in its frame and load the reference point that carries it",
+                let key = format!("coupling.{}", coupling.name);
+                return refused(
+                    key,
+                    "a body of this coupling",
+                    Subject::Axle,
+                    Feature::Coupling,
                 );
             }
         }
@@ -200,10 +218,12 @@ pub(super) fn refuse(problem: &Problem, said: &Said, free: &Corotations) -> Resu
                 whole && (load.set == b.name || load.set.split('.').next() == Some(&b.name))
             });
         if own {
-            return fault(
-                format!("load.{name}.set"),
-                "springs to ground would turn with this body",
-                "put them at the reference point that carries it, or press another body against it",
+            let key = format!("load.{name}.set");
+            return refused(
+                key,
+                "a body of this load",
+                Subject::Axle,
+                Feature::GroundSpring,
             );
         }
     }

@@ -1,214 +1,181 @@
-//! Bodies that turn by any angle, and what they cannot do yet.
+//! Bodies that turn by any angle, and what the [table of capabilities](crate::model::capability) says of all bodies and laws.
 
-use super::super::{BodyRotation, Problem, SpaceKind};
+use super::super::{Body, BodyRotation, Problem, SpaceKind};
 use super::findings::Findings;
 use super::names;
 use crate::body::loads::LoadKind;
 use crate::model::Solution;
+use crate::model::capability::{Feature, Subject, limit};
+use crate::time::scheme::Method;
 
 pub(super) fn check(problem: &Problem, findings: &mut Findings) {
-    check_free(problem, findings);
-    check_cells(problem, findings);
-    let turning: Vec<(&String, &str)> = (problem.body.iter())
-        .filter_map(|(name, body)| Some((name, body.rotation.reference()?)))
-        .collect();
-    let Some((first, _)) = turning.first() else {
-        return;
-    };
-    for (name, reference) in &turning {
-        let key = ["body", name.as_str(), "rotation", "with"];
-        let what = "reference points";
-        names::one_of(findings, &key, Some(reference), what, &problem.reference);
-        if problem.model.space == SpaceKind::Axisymmetric {
-            let message = "around an axis of symmetry nothing turns";
-            findings.add(&key, message, "model the body in 3D, or remove the key");
-        }
+    references(problem, findings);
+    one_way(problem, findings);
+    capabilities(problem, findings);
+}
+
+/// How a body is described.
+fn subject(body: &Body) -> Subject {
+    match (&body.rotation, body.rigid) {
+        (BodyRotation::Small, false) => Subject::Linear,
+        (BodyRotation::Small, true) => Subject::Rigid,
+        (BodyRotation::With(_), false) => Subject::Axle,
+        (BodyRotation::With(_), true) => Subject::RigidAxle,
+        (BodyRotation::Large, false) => Subject::Free,
+        (BodyRotation::Large, true) => Subject::RigidFree,
+        (BodyRotation::Corotational, _) => Subject::Cells,
     }
-    // A rigid body may move.
-    let mut elastic = turning
-        .iter()
-        .filter(|(name, _)| !problem.body[*name].rigid);
-    let deforms = elastic.next().map(|(name, _)| name.as_str());
-    at_rest_only(problem, first, deforms, findings);
-    if problem.solver.method == Solution::Multigrid {
-        findings.add(
-            &["solver", "method"],
-            format!("body `{first}` turns by any angle, and multigrid does not know of that"),
-            "take \"condensed\" or \"sparse\"",
-        );
-    }
-    for (name, initial) in &problem.initial {
-        if initial.displacement.is_some() || initial.result.is_some() {
-            findings.add(
-                &["initial", name],
-                format!("body `{first}` turns by any angle: displacements to start from are not known in its frame"),
-                "begin with a step that leads there",
-            );
+}
+
+/// A feature that a problem uses, and the key where it does; of an axis of symmetry the key is that of the body.
+struct Use {
+    feature: Feature,
+    key: Option<Vec<String>>,
+}
+
+/// Says of each feature that is used which body or law does not go with it.
+fn capabilities(problem: &Problem, findings: &mut Findings) {
+    let bodies = (problem.body.iter()).map(|(name, body)| (subject(body), "body", name));
+    let laws = problem.interface.iter().filter_map(|(name, interface)| {
+        let states = interface.friction.as_dyn().states();
+        (!states.is_empty()).then_some((Subject::FrictionState, "interface", name))
+    });
+    let subjects: Vec<_> = bodies.chain(laws).collect();
+    for used in uses(problem) {
+        let found = subjects
+            .iter()
+            .find_map(|s| Some((s, limit(s.0, used.feature)?)));
+        if let Some(((_, table, name), limit)) = found {
+            let own = || {
+                ["body", name.as_str(), "rotation"]
+                    .map(String::from)
+                    .to_vec()
+            };
+            let key = used.key.unwrap_or_else(own);
+            let key: Vec<&str> = key.iter().map(String::as_str).collect();
+            let message = format!("{table} `{name}` {}", limit.why);
+            findings.add(&key, message, limit.help);
         }
     }
 }
 
-/// Steps that bodies which turn by any angle are not known to: the `first` of them, and the first that `deforms`, as a rigid one may move.
-fn at_rest_only(problem: &Problem, first: &str, deforms: Option<&str>, findings: &mut Findings) {
+/// The features that a problem uses, as far as its tables say. Supports, couplings and springs are judged where the points are known on which they act.
+fn uses(problem: &Problem) -> Vec<Use> {
+    let mut uses = Vec::new();
+    let mut add = |feature: Feature, key: &[&str]| {
+        let key = match feature {
+            Feature::Axisymmetric => None,
+            _ => Some(key.iter().map(|k| k.to_string()).collect()),
+        };
+        uses.push(Use { feature, key });
+    };
+    if problem.model.space == SpaceKind::Axisymmetric {
+        add(Feature::Axisymmetric, &[]);
+    }
     for (i, step) in problem.step.iter().enumerate() {
         let i = i.to_string();
+        let motion = step
+            .dynamic
+            .as_ref()
+            .map(|d| match d.scheme.as_dyn().method() {
+                Method::Explicit { .. } => Feature::Explicit,
+                Method::Implicit(_) => Feature::Implicit,
+            });
         let kinds = [
-            ("dynamic", step.dynamic.is_some() && deforms.is_some()),
-            ("steady", step.steady.is_some()),
-            ("modes", step.modes.is_some()),
-            ("complex-modes", step.complex_modes.is_some()),
-            ("harmonic", step.harmonic.is_some()),
+            ("dynamic", motion),
+            ("steady", step.steady.as_ref().map(|_| Feature::Steady)),
+            ("modes", step.modes.as_ref().map(|_| Feature::Modes)),
+            (
+                "complex-modes",
+                step.complex_modes.as_ref().map(|_| Feature::ComplexModes),
+            ),
+            (
+                "harmonic",
+                step.harmonic.as_ref().map(|_| Feature::Harmonic),
+            ),
         ];
-        for (kind, _) in kinds.into_iter().filter(|(_, given)| *given) {
-            let body = deforms.unwrap_or(first);
-            findings.add(
-                &["step", &i, kind],
-                format!(
-                    "body `{body}` turns by any angle, which is known to quasi-static steps alone"
-                ),
-                "leave this step out, or `rotation` of the body",
-            );
+        for (key, feature) in kinds {
+            if let Some(feature) = feature {
+                add(feature, &["step", &i, key]);
+            }
         }
     }
-}
-
-/// Bodies whose cells have frames of their own.
-fn check_cells(problem: &Problem, findings: &mut Findings) {
-    let all = problem.body.iter();
-    let turning = all.filter(|(_, body)| body.rotation == BodyRotation::Corotational);
-    let names: Vec<&String> = turning.map(|(name, _)| name).collect();
-    let Some(first) = names.first() else {
-        return;
-    };
-    for name in &names {
-        sound(problem, name, findings);
+    match problem.solver.method {
+        Solution::Condensed => add(Feature::Condensed, &["solver", "method"]),
+        Solution::Multigrid => add(Feature::Multigrid, &["solver", "method"]),
+        Solution::Sparse => add(Feature::Sparse, &["solver", "method"]),
+        _ => {}
     }
-    at_rest_only(problem, first, Some(first.as_str()), findings);
-    let method = problem.solver.method;
-    if matches!(method, Solution::Multigrid | Solution::Condensed) {
-        findings.add(
-            &["solver", "method"],
-            format!(
-                "body `{first}` turns cell by cell, so that what it resists with is not linear"
-            ),
-            "take \"sparse\", or leave the key out",
-        );
+    for name in problem.temperature.keys() {
+        add(Feature::Temperature, &["temperature", name]);
     }
-    let heated = problem.temperature.keys().next();
-    let warm = (problem.initial.iter()).find(|(_, i)| i.temperature.is_some());
-    let keys = heated.map(|name| ["temperature", name.as_str()]);
-    if let Some(key) = keys.or(warm.map(|(name, _)| ["initial", name.as_str()])) {
-        findings.add(
-            &key,
-            format!("body `{first}` turns cell by cell, and temperatures do not turn with cells"),
-            "leave temperatures out, or `rotation` of the body",
-        );
-    }
-    for (name, interface) in &problem.interface {
-        if interface.kinematics.as_dyn().frozen() {
-            findings.add(
-                &["interface", name, "kinematics"],
-                format!("pairs are those of the start, and body `{first}` turns by any angle"),
-                "leave the key out",
+    for (name, initial) in &problem.initial {
+        if initial.temperature.is_some() {
+            add(
+                Feature::InitialTemperature,
+                &["initial", name, "temperature"],
             );
+        }
+        if initial.displacement.is_some() || initial.result.is_some() {
+            add(Feature::InitialDisplacement, &["initial", name]);
         }
     }
     for (name, load) in &problem.load {
-        let centrifugal = matches!(load.kind, LoadKind::Centrifugal(_));
-        if centrifugal || (load.follow && !matches!(load.kind, LoadKind::Pressure(_))) {
-            findings.add(
-                &[
-                    "load",
-                    name,
-                    if centrifugal { "centrifugal" } else { "follow" },
-                ],
-                format!("body `{first}` turns cell by cell, and no load follows it but a pressure"),
-                "give the load its direction in space, or take `rotation = \"large\"`",
-            );
+        if matches!(load.kind, LoadKind::Centrifugal(_)) {
+            add(Feature::Centrifugal, &["load", name, "centrifugal"]);
+        } else if load.follow && !matches!(load.kind, LoadKind::Pressure(_)) {
+            add(Feature::Following, &["load", name, "follow"]);
         }
     }
-    let other = |b: &&super::super::Body| b.rotation == BodyRotation::Large;
-    let with = (problem.body.values()).find_map(|b| b.rotation.reference());
-    if with.is_some() || problem.body.values().any(|b| other(&b)) {
-        findings.add(
-            &["body", first.as_str(), "rotation"],
-            "it turns cell by cell, and another body as a whole",
-            "let all bodies turn in one way",
-        );
+    // Bodies that turn as wholes are judged where it is known which interfaces they have.
+    let cells = problem.body.values().any(|b| subject(b) == Subject::Cells);
+    for (name, interface) in problem.interface.iter().filter(|_| cells) {
+        if interface.kinematics.as_dyn().frozen() {
+            add(Feature::SmallSliding, &["interface", name, "kinematics"]);
+        }
+    }
+    uses
+}
+
+/// Reference points that carry bodies have to exist.
+fn references(problem: &Problem, findings: &mut Findings) {
+    for (name, body) in &problem.body {
+        if let Some(reference) = body.rotation.reference() {
+            let key = ["body", name.as_str(), "rotation", "with"];
+            let what = "reference points";
+            names::one_of(findings, &key, Some(reference), what, &problem.reference);
+        }
     }
 }
 
-/// What a body cannot be whose cells have frames.
-fn sound(problem: &Problem, name: &str, findings: &mut Findings) {
-    let key = ["body", name, "rotation"];
-    if problem.model.space == SpaceKind::Axisymmetric {
-        let message = "around an axis of symmetry nothing turns";
-        findings.add(&key, message, "model the body in 3D, or remove the key");
-    }
-    if problem.body[name].rigid {
-        let message = "a rigid body has no cells that turn against each other";
-        findings.add(
-            &key,
-            message,
-            "take `rotation = \"large\"`, or make it elastic: it may be stiff",
-        );
-    }
-}
-
-/// Bodies with frames of their own.
-fn check_free(problem: &Problem, findings: &mut Findings) {
-    let free: Vec<&String> = (problem.body.iter())
-        .filter_map(|(name, body)| (body.rotation == BodyRotation::Large).then_some(name))
-        .collect();
-    let Some(first) = free.first() else {
-        return;
+/// Elastic bodies turn in one way, and cells are those of an elastic body.
+fn one_way(problem: &Problem, findings: &mut Findings) {
+    let of = |wanted: Subject| {
+        let mut all = problem.body.iter();
+        all.find_map(|(name, body)| (subject(body) == wanted).then_some(name))
     };
-    for name in &free {
-        let key = ["body", name.as_str(), "rotation"];
-        if problem.model.space == SpaceKind::Axisymmetric {
-            let message = "around an axis of symmetry nothing turns";
-            findings.add(&key, message, "model the body in 3D, or remove the key");
-        }
+    let with = |rigid: bool| {
+        let mut all = problem.body.values().filter(|b| rigid || !b.rigid);
+        all.find_map(|b| b.rotation.reference())
+    };
+    let help = "let all bodies turn in one way";
+    if let Some(name) = of(Subject::Cells)
+        && (with(true).is_some() || of(Subject::Free).or(of(Subject::RigidFree)).is_some())
+    {
+        let message = "it turns cell by cell, and another body as a whole";
+        findings.add(&["body", name, "rotation"], message, help);
     }
-    for (i, step) in problem.step.iter().enumerate() {
-        let kinds = [
-            ("steady", step.steady.is_some()),
-            ("modes", step.modes.is_some()),
-            ("complex-modes", step.complex_modes.is_some()),
-            ("harmonic", step.harmonic.is_some()),
-        ];
-        for (kind, _) in kinds.into_iter().filter(|(_, given)| *given) {
+    if let (Some(name), Some(with)) = (of(Subject::Free), with(false)) {
+        let message = format!("it turns freely, and another body with `{with}`");
+        findings.add(&["body", name, "rotation"], message, help);
+    }
+    for (name, body) in &problem.body {
+        if body.rigid && body.rotation == BodyRotation::Corotational {
             findings.add(
-                &["step", &i.to_string(), kind],
-                format!(
-                    "body `{first}` turns freely by any angle, which such a step does not know of"
-                ),
-                "leave this step out, or `rotation` of the body",
+                &["body", name, "rotation"],
+                "a rigid body has no cells that turn against each other",
+                "take `rotation = \"large\"`, or make it elastic: it may be stiff",
             );
         }
-    }
-    let warm = problem
-        .initial
-        .iter()
-        .find(|(_, i)| i.temperature.is_some());
-    if let Some((name, _)) = warm {
-        findings.add(
-            &["initial", name, "temperature"],
-            format!(
-                "body `{first}` turns freely by any angle, and temperatures do not turn with it"
-            ),
-            "leave temperatures out, or `rotation` of the body",
-        );
-    }
-    let mut elastic = problem.body.values().filter(|b| !b.rigid);
-    let with = elastic.find_map(|b| b.rotation.reference());
-    if let Some(with) = with
-        && let Some(first) = free.iter().find(|name| !problem.body[**name].rigid)
-    {
-        findings.add(
-            &["body", first.as_str(), "rotation"],
-            format!("it turns freely, and another body with `{with}`"),
-            "let all bodies turn in one way",
-        );
     }
 }

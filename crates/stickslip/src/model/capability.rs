@@ -1,0 +1,344 @@
+//! What goes with what: the steps, methods, loads and supports that each formulation of a body knows, and friction with a state. Refusals of problems, the table that
+//! `stickslip models --matrix` prints and the page of the book are products of this one table.
+
+/// How a body is described, or a law that not everything goes with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Subject {
+    /// Small rotations.
+    Linear,
+    /// In a frame that a reference point carries: `rotation.with`.
+    Axle,
+    /// In a frame of its own: `rotation = "large"`.
+    Free,
+    /// In a frame for each cell: `rotation = "corotational"`.
+    Cells,
+    /// Rigid, with small rotations.
+    Rigid,
+    /// Rigid, and carried by a reference point.
+    RigidAxle,
+    /// Rigid, and turning freely.
+    RigidFree,
+    /// A friction law that keeps state variables.
+    FrictionState,
+}
+
+use Subject::{Axle, Cells, Free, FrictionState, Linear, Rigid, RigidAxle, RigidFree};
+
+impl Subject {
+    /// All of them, in the order of the table.
+    pub const ALL: [Subject; 8] = [
+        Linear,
+        Axle,
+        Free,
+        Cells,
+        Rigid,
+        RigidAxle,
+        RigidFree,
+        FrictionState,
+    ];
+
+    /// What the table calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Linear => "small rotations",
+            Axle => "`rotation.with`",
+            Free => "`rotation = \"large\"`",
+            Cells => "`rotation = \"corotational\"`",
+            Rigid => "`rigid`",
+            RigidAxle => "`rigid`, `rotation.with`",
+            RigidFree => "`rigid`, `rotation = \"large\"`",
+            FrictionState => "friction with a state",
+        }
+    }
+}
+
+/// Something that a problem may use and that not everything goes with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Feature {
+    /// Quasi-static steps.
+    Statics,
+    /// Implicit dynamic steps.
+    Implicit,
+    /// Explicit dynamic steps.
+    Explicit,
+    /// Steady sliding.
+    Steady,
+    /// Real modes.
+    Modes,
+    /// Complex modes.
+    ComplexModes,
+    /// Answers to harmonic loads.
+    Harmonic,
+    /// The sparse method.
+    Sparse,
+    /// The condensed method.
+    Condensed,
+    /// The multigrid method.
+    Multigrid,
+    /// An axis of symmetry.
+    Axisymmetric,
+    /// Pressure loads.
+    Pressure,
+    /// Loads other than pressures that turn with the body.
+    Following,
+    /// Centrifugal loads.
+    Centrifugal,
+    /// Springs between points of the body and the ground.
+    GroundSpring,
+    /// Temperatures.
+    Temperature,
+    /// Temperatures to start from.
+    InitialTemperature,
+    /// Displacements to start from.
+    InitialDisplacement,
+    /// Supports of some components of a point.
+    PartialSupport,
+    /// Couplings of points of the body to others.
+    Coupling,
+    /// Contact pairs of the start.
+    SmallSliding,
+    /// Ties.
+    Tie,
+}
+
+use Feature::{
+    Axisymmetric, Centrifugal, ComplexModes, Condensed, Coupling, Explicit, Following,
+    GroundSpring, Harmonic, Implicit, InitialDisplacement, InitialTemperature, Modes, Multigrid,
+    PartialSupport, Pressure, SmallSliding, Sparse, Statics, Steady, Temperature, Tie,
+};
+
+impl Feature {
+    /// All of them, in the order of the table.
+    pub const ALL: [Feature; 22] = [
+        Statics,
+        Implicit,
+        Explicit,
+        Steady,
+        Modes,
+        ComplexModes,
+        Harmonic,
+        Sparse,
+        Condensed,
+        Multigrid,
+        Axisymmetric,
+        Pressure,
+        Following,
+        Centrifugal,
+        GroundSpring,
+        Temperature,
+        InitialTemperature,
+        InitialDisplacement,
+        PartialSupport,
+        Coupling,
+        SmallSliding,
+        Tie,
+    ];
+
+    /// What the table calls it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Statics => "quasi-static steps",
+            Implicit => "implicit `dynamic` steps",
+            Explicit => "explicit `dynamic` steps",
+            Steady => "`steady` sliding",
+            Modes => "`modes`",
+            ComplexModes => "`complex-modes`",
+            Harmonic => "`harmonic`",
+            Sparse => "`method = \"sparse\"`",
+            Condensed => "`method = \"condensed\"`",
+            Multigrid => "`method = \"multigrid\"`",
+            Axisymmetric => "`space = \"axisymmetric\"`",
+            Pressure => "pressures",
+            Following => "other loads that `follow`",
+            Centrifugal => "`centrifugal` loads",
+            GroundSpring => "springs to ground on its points",
+            Temperature => "`temperature`",
+            InitialTemperature => "`initial.temperature`",
+            InitialDisplacement => "`initial.displacement`",
+            PartialSupport => "supports of some components of its points",
+            Coupling => "couplings of its points",
+            SmallSliding => "`kinematics.small-sliding`",
+            Tie => "`tied` interfaces",
+        }
+    }
+}
+
+/// Why some subjects do not go with some features.
+#[derive(Debug)]
+pub struct Limit {
+    subjects: &'static [Subject],
+    features: &'static [Feature],
+    /// What is said of the body or the interface: its name comes before.
+    pub why: &'static str,
+    /// What to do.
+    pub help: &'static str,
+}
+
+const LEAVE_STEP: &str = "leave this step out, or `rotation` of the body";
+const NO_TEMPERATURES: &str = "leave temperatures out, or `rotation` of the body";
+
+/// The limits, each in a sentence.
+pub const LIMITS: &[Limit] = &[
+    Limit {
+        subjects: &[Axle, Free, Cells, RigidAxle, RigidFree],
+        features: &[Axisymmetric],
+        why: "turns by any angle: around an axis of symmetry nothing turns",
+        help: "model the body in 3D, or remove the key",
+    },
+    Limit {
+        subjects: &[Axle, Cells],
+        features: &[Implicit, Explicit],
+        why: "turns by any angle, which is known to quasi-static steps alone",
+        help: LEAVE_STEP,
+    },
+    Limit {
+        subjects: &[Axle, RigidAxle, Cells],
+        features: &[Steady, Modes, ComplexModes, Harmonic],
+        why: "turns by any angle, which is known to quasi-static steps alone",
+        help: LEAVE_STEP,
+    },
+    Limit {
+        subjects: &[Free, RigidFree],
+        features: &[Steady, Modes, ComplexModes, Harmonic],
+        why: "turns freely by any angle, which such a step does not know of",
+        help: LEAVE_STEP,
+    },
+    Limit {
+        subjects: &[Axle, RigidAxle],
+        features: &[Multigrid],
+        why: "turns by any angle, and multigrid does not know of that",
+        help: "take \"condensed\" or \"sparse\"",
+    },
+    Limit {
+        subjects: &[Cells],
+        features: &[Condensed, Multigrid],
+        why: "turns cell by cell, so that what it resists with is not linear",
+        help: "take \"sparse\", or leave the key out",
+    },
+    Limit {
+        subjects: &[Axle, RigidAxle],
+        features: &[InitialDisplacement],
+        why: "turns by any angle: displacements to start from are not known in its frame",
+        help: "begin with a step that leads there",
+    },
+    Limit {
+        subjects: &[Cells],
+        features: &[Temperature, InitialTemperature],
+        why: "turns cell by cell, and temperatures do not turn with cells",
+        help: NO_TEMPERATURES,
+    },
+    Limit {
+        subjects: &[Free, RigidFree],
+        features: &[InitialTemperature],
+        why: "turns freely by any angle, and temperatures do not turn with it",
+        help: NO_TEMPERATURES,
+    },
+    Limit {
+        subjects: &[Cells],
+        features: &[Following, Centrifugal],
+        why: "turns cell by cell, and no load follows it but a pressure",
+        help: "give the load its direction in space, or take `rotation = \"large\"`",
+    },
+    Limit {
+        subjects: &[Axle, Free, Cells, RigidAxle, RigidFree],
+        features: &[SmallSliding],
+        why: "turns by any angle, and pairs are those of the start",
+        help: "leave the key out",
+    },
+    Limit {
+        subjects: &[Axle, Free, RigidAxle, RigidFree],
+        features: &[GroundSpring],
+        why: "turns by any angle, and springs to ground would turn with this body",
+        help: "put them at the reference point that carries it, or press another body against it",
+    },
+    Limit {
+        subjects: &[Free],
+        features: &[PartialSupport],
+        why: "turns freely by any angle, and its points are not held in all directions",
+        help: "hold the points in all directions, let a frictionless interface guide the body, or, in quasi-static steps, take `rotation = \"corotational\"`",
+    },
+    Limit {
+        subjects: &[RigidAxle],
+        features: &[PartialSupport],
+        why: "is carried by a reference point",
+        help: "support the reference point",
+    },
+    Limit {
+        subjects: &[Free, RigidFree],
+        features: &[Coupling],
+        why: "turns freely by any angle, and couplings do not turn with it",
+        help: "tie surfaces by an interface (`tied = true`), hold points of an elastic body by a support or let it turn by `rotation = \"corotational\"` in quasi-static steps, or let a reference point carry a rigid one",
+    },
+    Limit {
+        subjects: &[Axle, RigidAxle],
+        features: &[Coupling],
+        why: "turns by any angle, and is joined to something that does not turn with it",
+        help: "tie surfaces by an interface (`tied = true`), or support the body in its frame and load the reference point that carries it",
+    },
+    Limit {
+        subjects: &[FrictionState],
+        features: &[ComplexModes, Harmonic],
+        why: "has a friction law that keeps a state, which steps of small vibrations do not follow",
+        help: "compute `modes`, or the motion itself in a dynamic step",
+    },
+];
+
+/// Why a subject does not go with a feature; `None` where it does.
+pub fn limit(subject: Subject, feature: Feature) -> Option<&'static Limit> {
+    LIMITS
+        .iter()
+        .find(|l| l.subjects.contains(&subject) && l.features.contains(&feature))
+}
+
+/// The table of what goes with what, in Markdown: a row for each feature, a column for each subject, and a note for each limit.
+pub fn matrix() -> String {
+    let names = Subject::ALL.map(Subject::name).join(" | ");
+    let mut text = format!(
+        "| | {names} |\n|---|{}\n",
+        "---|".repeat(Subject::ALL.len())
+    );
+    for feature in Feature::ALL {
+        let cell = |subject| match LIMITS.iter().position(|l| is(limit(subject, feature), l)) {
+            Some(k) => format!("no ({})", k + 1),
+            None => "yes".into(),
+        };
+        let cells = Subject::ALL.map(cell).join(" | ");
+        text += &format!("| {} | {cells} |\n", feature.name());
+    }
+    text += "\n";
+    for (k, limit) in LIMITS.iter().enumerate() {
+        text += &format!("{}. It {}. {}.\n", k + 1, limit.why, sentence(limit.help));
+    }
+    text
+}
+
+fn is(found: Option<&'static Limit>, limit: &'static Limit) -> bool {
+    found.is_some_and(|found| std::ptr::eq(found, limit))
+}
+
+/// With a capital at its beginning.
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    match letters.next() {
+        Some(first) => first.to_uppercase().chain(letters).collect(),
+        None => String::new(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_limit_is_found_and_none_hides_another() {
+        for l in LIMITS {
+            for &subject in l.subjects {
+                for &feature in l.features {
+                    assert!(is(limit(subject, feature), l), "{subject:?} {feature:?}");
+                }
+            }
+        }
+        assert!(Feature::ALL.iter().all(|&f| limit(Linear, f).is_none()));
+        assert!(Subject::ALL.iter().all(|&s| limit(s, Statics).is_none()));
+    }
+}
