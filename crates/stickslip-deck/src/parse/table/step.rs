@@ -18,7 +18,7 @@ const ACCURACY: &str = "it controls the lengths of increments; those are sticksl
 
 pub(super) const ROWS: &[Row] = &[
     card(
-        "STEP",
+        "STEP", |r, c| r.step(c),
         Data::Any,
         &[
             read("NLGEOM"),
@@ -37,10 +37,10 @@ pub(super) const ROWS: &[Row] = &[
             harmless("CONVERTSDI", NUMERICS),
             read("PERTURBATION"),
         ],
-    ),
-    card("ENDSTEP", Data::Nothing, &[]),
+    ).kept(),
+    card("ENDSTEP", |r, c| r.end_step(c), Data::Nothing, &[]),
     card(
-        "STATIC",
+        "STATIC", |r, c| r.statics(c),
         Data::Line("first increment, period, smallest increment, largest increment"),
         &[
             read("DIRECT"),
@@ -68,9 +68,9 @@ pub(super) const ROWS: &[Row] = &[
             refused("TIMERESET", ZERO),
             refused("TOTALTIMEATSTART", ZERO),
         ],
-    ),
+    ).kept(),
     card(
-        "DYNAMIC",
+        "DYNAMIC", |r, c| r.dynamics(c),
         Data::Line("first increment, period, smallest increment, largest increment"),
         &[
             read("DIRECT"),
@@ -97,9 +97,9 @@ pub(super) const ROWS: &[Row] = &[
             refused("SUBSPACE", "modal dynamics is not computed"),
             refused("ADIABATIC", "temperatures are not computed"),
         ],
-    ),
+    ).kept(),
     card(
-        "FREQUENCY",
+        "FREQUENCY", |r, c| r.frequency(c),
         Data::Any,
         &[
             idle("SOLVER", NUMERICS),
@@ -113,9 +113,9 @@ pub(super) const ROWS: &[Row] = &[
             refused("CYCMPC", CYCLIC),
             refused("ALPHA", CYCLIC),
         ],
-    ),
+    ).kept(),
     card(
-        "COMPLEXFREQUENCY",
+        "COMPLEXFREQUENCY", |r, c| r.complex_frequency(c),
         Data::Line("number of modes, lowest frequency, highest frequency, shift"),
         &[
             read("FRICTIONDAMPING"),
@@ -135,9 +135,9 @@ pub(super) const ROWS: &[Row] = &[
             refused("CORIOLIS", GYROSCOPIC),
             refused("FLUTTER", GYROSCOPIC),
         ],
-    ),
+    ).kept(),
     card(
-        "STEADYSTATEDYNAMICS",
+        "STEADYSTATEDYNAMICS", |r, c| r.steady_state(c),
         Data::Line("lowest frequency, highest frequency, number of points, bias"),
         &[
             read("INTERVAL"),
@@ -157,9 +157,9 @@ pub(super) const ROWS: &[Row] = &[
                 "stress does not stiffen bodies, as strains are small: leave NLGEOM out",
             ),
         ],
-    ),
+    ).kept(),
     card(
-        "MODALDAMPING",
+        "MODALDAMPING", |r, c| r.modal_damping(c),
         Data::Any,
         &[
             read("RAYLEIGH"),
@@ -173,7 +173,7 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
-        "MOTION",
+        "MOTION", |r, c| r.material_motion(c),
         Data::Any,
         &[
             read("ROTATION"),
@@ -192,7 +192,7 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
-        "BOUNDARY",
+        "BOUNDARY", |r, c| r.boundary(c),
         Data::Lines("node or set of nodes, first direction, last direction, value"),
         &[
             read("OP"),
@@ -211,7 +211,7 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
-        "CLOAD",
+        "CLOAD", |r, c| r.forces(c),
         Data::Lines("node or set of nodes, direction, force"),
         &[
             read("OP"),
@@ -231,7 +231,7 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
-        "TEMPERATURE",
+        "TEMPERATURE", |r, c| r.temperature(c),
         Data::Lines("node or set of nodes, temperature"),
         &[
             read("OP"),
@@ -252,7 +252,7 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
-        "DLOAD",
+        "DLOAD", |r, c| r.distributed(c),
         Data::Lines("elements, kind, value, x, y, z, dx, dy, dz"),
         &[
             read("OP"),
@@ -275,7 +275,7 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
-        "DSLOAD",
+        "DSLOAD", |r, c| r.surface_loads(c),
         Data::Lines("surface, kind, value"),
         &[
             read("OP"),
@@ -296,7 +296,7 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
-        "RESTART",
+        "RESTART", |_, _| {},
         Data::Any,
         &[
             harmless(
