@@ -5,8 +5,8 @@
 
 use stickslip::io::abaqus::{self, Space};
 
-use super::fields::nearest;
 use super::generate_elements;
+use super::known::nearest;
 use super::reader::Reader;
 use super::structure::{Assembly, Inside, Level, OpenInstance, Part};
 use super::table::{self, Row};

@@ -11,6 +11,7 @@ mod initial;
 mod instances;
 mod interaction;
 mod judge;
+mod known;
 mod links;
 mod loads;
 mod material;
