@@ -128,8 +128,7 @@ pub(super) fn add_load(
         job.shaking
             .push((name.clone(), job.part, when.steps.clone()));
         // It acts in no step but as what shakes.
-        job.active
-            .push(("loads", name, vec![false; when.steps.len()]));
+        job.acts::<Load>(name, vec![false; when.steps.len()]);
         return;
     }
     // From the first step on, where steps change without amplitudes as they usually do not.
@@ -153,7 +152,7 @@ pub(super) fn add_load(
         steps[first..].fill(true);
     }
     job.add(&name, place, load);
-    job.active.push(("loads", name, steps));
+    job.acts::<Load>(name, steps);
 }
 
 pub(super) fn label(deck: &Deck, target: &Target) -> String {

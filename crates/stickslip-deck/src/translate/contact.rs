@@ -106,8 +106,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                     job.add(&name, pair.place, interface);
                     let present = present(deck, pair);
                     let acts = present.iter().zip(&steps).map(|(a, b)| *a && *b);
-                    job.active
-                        .push(("interfaces", name.clone(), acts.collect()));
+                    job.acts::<Interface>(name.clone(), acts.collect());
                     job.pairs
                         .push((name, pair.slave.clone(), pair.master.clone()));
                 }

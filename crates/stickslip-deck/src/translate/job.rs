@@ -18,8 +18,8 @@ pub(super) struct Job<'a> {
     pub(super) notes: Vec<Finding>,
     pub(super) places: Vec<(String, Place)>,
     pub(super) pairs: Vec<(String, String, String)>,
-    /// Names of tables that act in some steps only: kind (`supports`, `loads`, ...), name, by step.
-    pub(super) active: Vec<(&'static str, String, Vec<bool>)>,
+    /// Tables that act in some steps only.
+    pub(super) active: Vec<Active>,
     /// Which loads are written.
     pub(super) part: Part,
     /// Loads that shake: name, part, by step.
@@ -118,6 +118,12 @@ impl<'a> Job<'a> {
         T::all(&mut self.problem).insert(name, table);
     }
 
+    /// Says in which steps a table acts.
+    pub(super) fn acts<T: Listed>(&mut self, name: String, steps: Vec<bool>) {
+        let kind = T::KIND;
+        self.active.push(Active { kind, name, steps });
+    }
+
     /// The nodes of a card.
     pub(super) fn nodes(&self, target: &Target) -> Vec<u64> {
         match target {
@@ -162,6 +168,33 @@ named!(
     AmplitudeTable amplitude, Body body, Coupling coupling, Initial initial, Interface interface, Load load, Mass mass,
     Material material, Pretension pretension, Probe probe, Reference reference, Support support, Temperature temperature
 );
+
+/// A kind of table of which a step can list those that act in it.
+pub(super) trait Listed: Named {
+    fn list(step: &mut problem::Step) -> &mut Option<Vec<String>>;
+}
+
+macro_rules! listed {
+    ($($table:ident $list:ident),+) => {
+        $(impl Listed for problem::$table {
+            fn list(step: &mut problem::Step) -> &mut Option<Vec<String>> {
+                &mut step.$list
+            }
+        })+
+    };
+}
+
+listed!(
+    Support supports, Load loads, Temperature temperatures, Interface interfaces, Coupling couplings
+);
+
+/// The steps in which a table acts.
+pub(super) struct Active {
+    /// [`Named::KIND`]
+    pub(super) kind: &'static str,
+    pub(super) name: String,
+    pub(super) steps: Vec<bool>,
+}
 
 /// A step in which nothing is said but how long it takes.
 fn step(duration: f64) -> problem::Step {

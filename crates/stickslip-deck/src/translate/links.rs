@@ -183,7 +183,7 @@ fn equations(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<
             );
             let steps = held(job, dependent.0, dependent.1);
             if steps.contains(&false) {
-                job.active.push(("couplings", name, steps));
+                job.acts::<Coupling>(name, steps);
             }
         }
     }

@@ -107,10 +107,10 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies) {
             continue;
         }
         let axes = axes.as_ref();
-        let Some((rows, density)) = constants(job, bodies, material, &section.material) else {
+        let Some(constants) = constants(job, bodies, material, &section.material) else {
             continue;
         };
-        let mut rows = rows.into_iter();
+        let mut rows = constants.elastic.into_iter();
         let Some((first, elastic)) = rows.next() else {
             continue;
         };
@@ -124,7 +124,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies) {
             expansion: material.expansion.as_ref().map(|e| e.along(axes)),
             temperature: (!at.is_empty()).then_some(first),
             at,
-            kind: constants_along(&elastic, density, axes),
+            kind: constants_along(&elastic, constants.density, axes),
         };
         job.add(name, material.place, table);
     }
@@ -198,18 +198,21 @@ impl Expansion {
     }
 }
 
+/// What a material has of the deck's tables over temperature.
+struct Constants {
+    /// By temperature, in ascending order.
+    elastic: Vec<(f64, Elastic)>,
+    density: Option<f64>,
+}
+
 /// Elastic constants by temperature, and density. Where its elements have one temperature throughout, a material has the constants of that; elastic
 /// ones that are left are those of the temperatures of its cells.
-#[allow(clippy::type_complexity)]
-fn constants(
-    job: &mut Job,
-    bodies: &Bodies,
-    material: &Material,
-    name: &str,
-) -> Option<(Vec<(f64, Elastic)>, Option<f64>)> {
-    let first = material.elastic_at.iter().take(1).cloned().collect();
+fn constants(job: &mut Job, bodies: &Bodies, material: &Material, name: &str) -> Option<Constants> {
     if material.elastic_at.len() < 2 && material.density_at.len() < 2 {
-        return Some((first, material.density));
+        return Some(Constants {
+            elastic: material.elastic_at.iter().take(1).cloned().collect(),
+            density: material.density,
+        });
     }
     let deck = job.deck;
     let at = super::temperatures::at_start(job);
@@ -236,10 +239,16 @@ fn constants(
     }
     let density = between(&material.density_at, low, |a, b, w| a + w * (b - a));
     if high > low || deck.steps.iter().any(changes) {
-        return Some((material.elastic_at.clone(), density));
+        return Some(Constants {
+            elastic: material.elastic_at.clone(),
+            density,
+        });
     }
     let elastic = between(&material.elastic_at, low, |a, b, w| a.mix(b, w));
-    Some((elastic.map(|e| (low, e)).into_iter().collect(), density))
+    Some(Constants {
+        elastic: elastic.map(|e| (low, e)).into_iter().collect(),
+        density,
+    })
 }
 
 /// Linear between the rows of a table over temperature, constant outside.

@@ -3,11 +3,13 @@
 use std::collections::BTreeSet;
 
 use stickslip::io::frd::Encoding;
-use stickslip::problem::{ComplexModes, Dynamic, Frd, Increments, Modes};
+use stickslip::problem::{
+    ComplexModes, Coupling, Dynamic, Frd, Increments, Interface, Load, Modes, Support, Temperature,
+};
 use stickslip::time::scheme::{CentralDifference, Hht, SchemeModel};
 
 use super::harmonic;
-use super::job::Job;
+use super::job::{Active, Job, Listed};
 use super::spans::{duration, times};
 use crate::deck::{Deck, Print, Procedure, Step, When};
 
@@ -24,7 +26,11 @@ pub(super) fn write(job: &mut Job) {
     }
     for (i, step) in deck.steps.iter().enumerate() {
         job.places.push((format!("step.{i}"), step.place));
-        acting(job, i);
+        acting::<Support>(job, i);
+        acting::<Load>(job, i);
+        acting::<Temperature>(job, i);
+        acting::<Interface>(job, i);
+        acting::<Coupling>(job, i);
         let harmonic = harmonic::harmonic(job, i);
         let table = &mut job.problem.step[i];
         table.harmonic = harmonic;
@@ -50,37 +56,21 @@ pub(super) fn write(job: &mut Job) {
 }
 
 /// The tables that act in a step, where some do not act in all.
-fn acting(job: &mut Job, step: usize) {
-    for (kind, table) in [
-        ("supports", None),
-        ("loads", None),
-        ("temperatures", None),
-        ("interfaces", Some("interface.")),
-        ("couplings", Some("coupling.")),
-    ] {
-        let all: Vec<&(&str, String, Vec<bool>)> =
-            job.active.iter().filter(|a| a.0 == kind).collect();
-        if all.iter().any(|a| a.2.contains(&false)) {
-            let on = all.iter().filter(|a| a.2[step]);
-            let mut names: Vec<String> = on.map(|a| a.1.clone()).collect();
-            if let Some(table) = table {
-                // What says nothing of steps acts in all.
-                let listed = |n: &str| all.iter().any(|a| a.1 == n);
-                let always = job.places.iter();
-                let always = always.filter_map(|(k, _)| k.strip_prefix(table));
-                names.extend(always.filter(|n| !listed(n)).map(str::to_string));
-            }
-            let table = &mut job.problem.step[step];
-            let list = match kind {
-                "supports" => &mut table.supports,
-                "loads" => &mut table.loads,
-                "temperatures" => &mut table.temperatures,
-                "interfaces" => &mut table.interfaces,
-                _ => &mut table.couplings,
-            };
-            *list = Some(names);
-        }
+fn acting<T: Listed>(job: &mut Job, step: usize) {
+    let all: Vec<&Active> = job.active.iter().filter(|a| a.kind == T::KIND).collect();
+    if all.iter().all(|a| !a.steps.contains(&false)) {
+        return;
     }
+    let on = all.iter().filter(|a| a.steps[step]);
+    let mut names: Vec<String> = on.map(|a| a.name.clone()).collect();
+    // What says nothing of steps acts in all.
+    let own = |(key, _): &'_ (String, _)| {
+        let name = key.strip_prefix(T::KIND)?.strip_prefix('.')?;
+        Some(name.to_string())
+    };
+    let own = job.places.iter().filter_map(own);
+    names.extend(own.filter(|n| all.iter().all(|a| a.name != *n)));
+    *T::list(&mut job.problem.step[step]) = Some(names);
 }
 
 /// The sizes of the increments of a step, as parts of its length.

@@ -255,7 +255,7 @@ fn support(
         ..prescribed(set, moved, factor)
     };
     job.add(&name, first.place, support);
-    job.active.push(("supports", name, steps.0));
+    job.acts::<Support>(name, steps.0);
 }
 
 /// Displacements and rotations that are prescribed.
@@ -350,7 +350,7 @@ fn reference(
     let factor = course(job, amplitude, when, largest, place, &name);
     let moved = std::array::from_fn(|i| values[i].as_ref().filter(|_| i < dim).map(|v| v.value));
     job.add(&name, place, prescribed(set, moved, factor));
-    job.active.push(("supports", name, when.0.clone()));
+    job.acts::<Support>(name, when.0.clone());
 }
 
 /// A node with local axes: an equation along each that is prescribed.
@@ -409,6 +409,6 @@ fn local(
             kind: CouplingKind::Equation(equation),
         };
         job.add(&name, v.place, coupling);
-        job.active.push(("couplings", name, when.0.clone()));
+        job.acts::<Coupling>(name, when.0.clone());
     }
 }

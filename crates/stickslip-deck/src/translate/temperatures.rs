@@ -98,7 +98,7 @@ fn field(
         kind: spread(nodes),
     };
     job.add(&name, place, field);
-    job.active.push(("temperatures", name, when.steps.clone()));
+    job.acts::<problem::Temperature>(name, when.steps.clone());
 }
 
 /// One number, or one for each node.
