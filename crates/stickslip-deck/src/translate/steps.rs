@@ -87,7 +87,8 @@ fn increments(step: &Step) -> Increments {
     let fraction = |t: f64| (t / length).clamp(1e-12, 1.0);
     let mut sizes = Increments::default();
     if direct && first > 0.0 {
-        sizes.fixed = Some((length / first).round().max(1.0) as usize);
+        // As many as a problem file can say: its check tells of too many.
+        sizes.fixed = Some((length / first).round().max(1.0) as i64 as usize);
         return sizes;
     }
     // An explicit step finds its increments itself, up to the largest.
