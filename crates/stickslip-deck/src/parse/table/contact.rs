@@ -11,7 +11,8 @@ const TIE: &str = "only surfaces that stay together are tied; *EQUATION ties nod
 
 pub(super) const ROWS: &[Row] = &[
     card(
-        "SURFACEINTERACTION", |r, c| r.interaction(c),
+        "SURFACEINTERACTION",
+        |r, c| r.interaction(c),
         Data::Line("thickness"),
         &[
             read("NAME"),
@@ -27,7 +28,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).kept(),
     card(
-        "SURFACEBEHAVIOR", |r, c| r.behavior(c),
+        "SURFACEBEHAVIOR",
+        |r, c| r.behavior(c),
         Data::Any,
         &[
             read("PRESSURE-OVERCLOSURE"),
@@ -38,7 +40,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).beneath(),
     card(
-        "FRICTION", |r, c| r.friction(c),
+        "FRICTION",
+        |r, c| r.friction(c),
         Data::Any,
         &[
             read("TAUMAX"),
@@ -63,7 +66,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).beneath(),
     card(
-        "CHANGEFRICTION", |r, c| { r.change(c, Context::ChangeFriction) },
+        "CHANGEFRICTION",
+        |r, c| { r.change(c, Context::ChangeFriction) },
         Data::Nothing,
         &[
             read("INTERACTION"),
@@ -75,7 +79,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
-        "CHANGESURFACEBEHAVIOR", |r, c| { r.change(c, Context::ChangeBehavior) },
+        "CHANGESURFACEBEHAVIOR",
+        |r, c| { r.change(c, Context::ChangeBehavior) },
         Data::Nothing,
         &[
             read("INTERACTION"),
@@ -83,12 +88,14 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
-        "CONTACTDAMPING", |r, c| r.contact_damping(c),
+        "CONTACTDAMPING",
+        |r, c| r.contact_damping(c),
         Data::Line("damping coefficient"),
         &[read("DEFINITION"), read("TANGENTFRACTION")],
     ).beneath(),
     card(
-        "CONTACTPAIR", |r, c| r.contact_pair(c),
+        "CONTACTPAIR",
+        |r, c| r.contact_pair(c),
         Data::Lines("slave surface, master surface"),
         &[
             read("INTERACTION"),
@@ -121,7 +128,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
-        "MODELCHANGE", |r, c| r.model_change(c),
+        "MODELCHANGE",
+        |r, c| r.model_change(c),
         Data::Any,
         &[
             read("TYPE"),
@@ -138,7 +146,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
-        "CLEARANCE", |r, c| r.clearance(c),
+        "CLEARANCE",
+        |r, c| r.clearance(c),
         Data::Nothing,
         &[
             read("MASTER"),
@@ -153,7 +162,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
-        "TIE", |r, c| r.tie(c),
+        "TIE",
+        |r, c| r.tie(c),
         Data::Lines("slave surface, master surface"),
         &[
             read("NAME"),

@@ -16,10 +16,13 @@ pub(super) const ROWS: &[Row] = &[
     },
     card("PART", |r, c| r.part(c), Data::Nothing, &[read("NAME")]).at(Level::Structure).kept(),
     card("ENDPART", |r, c| r.end_part(c), Data::Nothing, &[]).at(Level::Structure).kept(),
-    card("ASSEMBLY", |r, c| r.assembly(c), Data::Nothing, &[read("NAME")]).at(Level::Structure).kept(),
+    card("ASSEMBLY", |r, c| r.assembly(c), Data::Nothing, &[read("NAME")])
+        .at(Level::Structure)
+        .kept(),
     card("ENDASSEMBLY", |r, c| r.end_assembly(c), Data::Nothing, &[]).at(Level::Structure).kept(),
     card(
-        "INSTANCE", |r, c| r.instance(c),
+        "INSTANCE",
+        |r, c| r.instance(c),
         Data::Any,
         &[
             read("NAME"),
@@ -31,13 +34,15 @@ pub(super) const ROWS: &[Row] = &[
     card("ENDINSTANCE", |r, c| r.end_instance(c), Data::Nothing, &[]).at(Level::Structure).kept(),
     card("SYSTEM", |r, c| r.system(c), Data::Lines("x, y, z, x, y, z"), &[]).at(Level::Mesh),
     card(
-        "NODE", |r, c| r.nodes(c),
+        "NODE",
+        |r, c| r.nodes(c),
         // Directions of normals are for shells and beams.
         Data::Lines("node, x, y, z, normal x, normal y, normal z"),
         &[read("NSET"), read("SYSTEM"), INPUT],
     ).at(Level::Mesh).kept(),
     card(
-        "ELEMENT", |r, c| r.elements(c),
+        "ELEMENT",
+        |r, c| r.elements(c),
         Data::Any,
         &[
             read("TYPE"),
@@ -51,14 +56,16 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).at(Level::Mesh).kept(),
     card(
-        "NGEN", |r, c| r.generate_nodes(c),
+        "NGEN",
+        |r, c| r.generate_nodes(c),
         Data::Lines(
             "first node, last node, increment, node of the curve, x, y, z, normal x, normal y, normal z",
         ),
         &[read("NSET"), read("LINE"), read("SYSTEM")],
     ).at(Level::Mesh).kept(),
     card(
-        "NFILL", |r, c| r.fill_nodes(c),
+        "NFILL",
+        |r, c| r.fill_nodes(c),
         Data::Lines("first set, second set, number of intervals, increment"),
         &[
             read("NSET"),
@@ -71,7 +78,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).at(Level::Mesh).kept(),
     card(
-        "NCOPY", |r, c| r.copy_nodes(c),
+        "NCOPY",
+        |r, c| r.copy_nodes(c),
         Data::Lines("x, y, z, x, y, z, angle"),
         &[
             read("OLDSET"),
@@ -90,7 +98,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).at(Level::Mesh).kept(),
     card(
-        "ELGEN", |r, c| r.generate_elements(c),
+        "ELGEN",
+        |r, c| r.generate_elements(c),
         Data::Lines(
             "element, number in a row, increment of nodes, increment of elements, rows, increment of nodes, increment of elements, layers, increment of nodes, increment of elements",
         ),
@@ -100,7 +109,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).at(Level::Mesh).kept(),
     card(
-        "ELCOPY", |r, c| r.copy_elements(c),
+        "ELCOPY",
+        |r, c| r.copy_elements(c),
         Data::Nothing,
         &[
             read("OLDSET"),
@@ -111,7 +121,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).at(Level::Mesh).kept(),
     card(
-        "NSET", |r, c| r.node_set(c),
+        "NSET",
+        |r, c| r.node_set(c),
         Data::Any,
         &[
             read("NSET"),
@@ -128,7 +139,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).at(Level::Mesh).kept(),
     card(
-        "ELSET", |r, c| r.element_set(c),
+        "ELSET",
+        |r, c| r.element_set(c),
         Data::Any,
         &[
             read("ELSET"),
@@ -140,7 +152,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).at(Level::Mesh).kept(),
     card(
-        "SURFACE", |r, c| r.surface(c),
+        "SURFACE",
+        |r, c| r.surface(c),
         Data::Lines("element or set of elements or node, face"),
         &[
             read("NAME"),
@@ -156,7 +169,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).at(Level::Mesh).kept(),
     card(
-        "TRANSFORM", |r, c| r.transform(c),
+        "TRANSFORM",
+        |r, c| r.transform(c),
         Data::Line("ax, ay, az, bx, by, bz"),
         &[read("NSET"), read("TYPE")],
     ).at(Level::Mesh),
@@ -165,12 +179,14 @@ pub(super) const ROWS: &[Row] = &[
         "neither radiation nor gravitation between bodies is computed; both are refused where they are asked for",
     ),
     card(
-        "EQUATION", |r, c| r.equation(c),
+        "EQUATION",
+        |r, c| r.equation(c),
         Data::Any,
         &[read("REMOVE"), read("REMOVEALL"), INPUT],
     ).at(Level::Mesh),
     card(
-        "RIGIDBODY", |r, c| r.rigid_body(c),
+        "RIGIDBODY",
+        |r, c| r.rigid_body(c),
         Data::Nothing,
         &[
             read("NSET"),
@@ -194,7 +210,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).at(Level::Mesh),
     card(
-        "PRE-TENSIONSECTION", |r, c| r.pretension(c),
+        "PRE-TENSIONSECTION",
+        |r, c| r.pretension(c),
         Data::Line("nx, ny, nz"),
         &[
             read("SURFACE"),
@@ -206,7 +223,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).at(Level::Mesh),
     card(
-        "COUPLING", |r, c| r.coupling(c),
+        "COUPLING",
+        |r, c| r.coupling(c),
         Data::Nothing,
         &[
             read("CONSTRAINTNAME"),
@@ -221,12 +239,14 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).at(Level::Mesh),
     card(
-        "KINEMATIC", |r, c| r.way(c, Way::Kinematic),
+        "KINEMATIC",
+        |r, c| r.way(c, Way::Kinematic),
         Data::Lines("first direction, last direction"),
         &[],
     ).at(Level::Mesh),
     card(
-        "DISTRIBUTING", |r, c| r.way(c, Way::Distributing),
+        "DISTRIBUTING",
+        |r, c| r.way(c, Way::Distributing),
         Data::Lines("first direction, last direction"),
         &[
             read("WEIGHTINGMETHOD"),
@@ -234,17 +254,20 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).at(Level::Mesh),
     card(
-        "KINEMATICCOUPLING", |r, c| r.kinematic_coupling(c),
+        "KINEMATICCOUPLING",
+        |r, c| r.kinematic_coupling(c),
         Data::Lines("node or set of nodes, first direction, last direction"),
         &[read("REFNODE"), read("ORIENTATION")],
     ).at(Level::Mesh),
     card(
-        "DISTRIBUTINGCOUPLING", |r, c| r.distributing_coupling(c),
+        "DISTRIBUTINGCOUPLING",
+        |r, c| r.distributing_coupling(c),
         Data::Lines("node or set of nodes, weight"),
         &[read("ELSET")],
     ).at(Level::Mesh),
     card(
-        "MPC", |r, c| r.multi_point(c),
+        "MPC",
+        |r, c| r.multi_point(c),
         Data::Any,
         &[
             refused("USER", SUBROUTINE),
@@ -253,7 +276,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).at(Level::Mesh),
     card(
-        "SPRING", |r, c| r.spring(c),
+        "SPRING",
+        |r, c| r.spring(c),
         Data::Any,
         &[
             read("ELSET"),
@@ -267,7 +291,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).at(Level::Mesh),
     card(
-        "DASHPOT", |r, c| r.spring(c),
+        "DASHPOT",
+        |r, c| r.spring(c),
         Data::Any,
         &[
             read("ELSET"),
@@ -280,12 +305,14 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).at(Level::Mesh),
     card(
-        "GAP", |r, c| r.gap(c),
+        "GAP",
+        |r, c| r.gap(c),
         Data::Line("clearance, x, y, z, area, stiffness, tension"),
         &[read("ELSET")],
     ).at(Level::Mesh),
     card(
-        "MASS", |r, c| r.mass(c),
+        "MASS",
+        |r, c| r.mass(c),
         Data::Line("mass"),
         &[
             read("ELSET"),
@@ -296,7 +323,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).at(Level::Mesh),
     card(
-        "INITIALCONDITIONS", |r, c| r.initial_conditions(c),
+        "INITIALCONDITIONS",
+        |r, c| r.initial_conditions(c),
         Data::Lines("node or set of nodes, direction or temperature, value"),
         &[
             read("TYPE"),
@@ -317,7 +345,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
-        "AMPLITUDE", |r, c| r.amplitude(c),
+        "AMPLITUDE",
+        |r, c| r.amplitude(c),
         Data::Any,
         &[
             read("NAME"),
@@ -334,7 +363,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).kept(),
     card(
-        "TIMEPOINTS", |r, c| r.time_points(c),
+        "TIMEPOINTS",
+        |r, c| r.time_points(c),
         Data::Any,
         &[read("NAME"), read("GENERATE"), read("TIME")],
     ),

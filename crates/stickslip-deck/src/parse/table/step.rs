@@ -18,7 +18,8 @@ const ACCURACY: &str = "it controls the lengths of increments; those are sticksl
 
 pub(super) const ROWS: &[Row] = &[
     card(
-        "STEP", |r, c| r.step(c),
+        "STEP",
+        |r, c| r.step(c),
         Data::Any,
         &[
             read("NLGEOM"),
@@ -40,7 +41,8 @@ pub(super) const ROWS: &[Row] = &[
     ).kept(),
     card("ENDSTEP", |r, c| r.end_step(c), Data::Nothing, &[]),
     card(
-        "STATIC", |r, c| r.statics(c),
+        "STATIC",
+        |r, c| r.statics(c),
         Data::Line("first increment, period, smallest increment, largest increment"),
         &[
             read("DIRECT"),
@@ -70,7 +72,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).kept(),
     card(
-        "DYNAMIC", |r, c| r.dynamics(c),
+        "DYNAMIC",
+        |r, c| r.dynamics(c),
         Data::Line("first increment, period, smallest increment, largest increment"),
         &[
             read("DIRECT"),
@@ -99,7 +102,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).kept(),
     card(
-        "FREQUENCY", |r, c| r.frequency(c),
+        "FREQUENCY",
+        |r, c| r.frequency(c),
         Data::Any,
         &[
             idle("SOLVER", NUMERICS),
@@ -115,7 +119,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).kept(),
     card(
-        "COMPLEXFREQUENCY", |r, c| r.complex_frequency(c),
+        "COMPLEXFREQUENCY",
+        |r, c| r.complex_frequency(c),
         Data::Line("number of modes, lowest frequency, highest frequency, shift"),
         &[
             read("FRICTIONDAMPING"),
@@ -137,7 +142,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).kept(),
     card(
-        "STEADYSTATEDYNAMICS", |r, c| r.steady_state(c),
+        "STEADYSTATEDYNAMICS",
+        |r, c| r.steady_state(c),
         Data::Line("lowest frequency, highest frequency, number of points, bias"),
         &[
             read("INTERVAL"),
@@ -159,7 +165,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).kept(),
     card(
-        "MODALDAMPING", |r, c| r.modal_damping(c),
+        "MODALDAMPING",
+        |r, c| r.modal_damping(c),
         Data::Any,
         &[
             read("RAYLEIGH"),
@@ -173,7 +180,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
-        "MOTION", |r, c| r.material_motion(c),
+        "MOTION",
+        |r, c| r.material_motion(c),
         Data::Any,
         &[
             read("ROTATION"),
@@ -192,7 +200,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
-        "BOUNDARY", |r, c| r.boundary(c),
+        "BOUNDARY",
+        |r, c| r.boundary(c),
         Data::Lines("node or set of nodes, first direction, last direction, value"),
         &[
             read("OP"),
@@ -211,7 +220,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
-        "CLOAD", |r, c| r.forces(c),
+        "CLOAD",
+        |r, c| r.forces(c),
         Data::Lines("node or set of nodes, direction, force"),
         &[
             read("OP"),
@@ -231,7 +241,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
-        "TEMPERATURE", |r, c| r.temperature(c),
+        "TEMPERATURE",
+        |r, c| r.temperature(c),
         Data::Lines("node or set of nodes, temperature"),
         &[
             read("OP"),
@@ -252,7 +263,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
-        "DLOAD", |r, c| r.distributed(c),
+        "DLOAD",
+        |r, c| r.distributed(c),
         Data::Lines("elements, kind, value, x, y, z, dx, dy, dz"),
         &[
             read("OP"),
@@ -275,7 +287,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
-        "DSLOAD", |r, c| r.surface_loads(c),
+        "DSLOAD",
+        |r, c| r.surface_loads(c),
         Data::Lines("surface, kind, value"),
         &[
             read("OP"),
@@ -296,7 +309,8 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ),
     card(
-        "RESTART", |_, _| {},
+        "RESTART",
+        |_, _| {},
         Data::Any,
         &[
             harmless(
