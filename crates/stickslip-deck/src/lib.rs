@@ -44,7 +44,6 @@ mod print;
 mod section;
 pub mod source;
 mod status;
-mod table;
 mod taken;
 mod text;
 mod translate;

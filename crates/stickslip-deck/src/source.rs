@@ -6,11 +6,13 @@ use stickslip::io::input;
 
 pub use crate::card::{Card, Data, Parameter, Place};
 use crate::finding::{DeckError, Finding, Severity};
-use crate::table;
 use crate::text::{label, squeeze};
 
+/// The names of the parameters of a keyword, in capitals without blanks; nothing of one that is not known.
+pub type ParametersOf = fn(&str) -> Option<Vec<&'static str>>;
+
 /// A deck as cards.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Source {
     /// The file and those it includes, in the order they were met.
     pub files: Vec<PathBuf>,
@@ -18,6 +20,7 @@ pub struct Source {
     pub cards: Vec<Card>,
     /// What was forgiven, and where.
     pub forgiven: Vec<(Place, String)>,
+    parameters_of: ParametersOf,
 }
 
 /// Deepest nesting of included files.
@@ -36,17 +39,26 @@ impl Source {
     ///
     /// # Errors
     /// Files that cannot be read, that include each other in a circle, and lines that belong to no keyword.
-    pub fn read(path: &Path) -> Result<Source, DeckError> {
+    pub fn read(path: &Path, parameters_of: ParametersOf) -> Result<Source, DeckError> {
         let bytes = input::read(path, input::TEXT).map_err(|e| DeckError::io(path, &e, None))?;
-        Source::parse(&bytes, path)
+        Source::parse(&bytes, path, parameters_of)
     }
 
     /// The same from the bytes of the first file; `path` is for messages, and for the folder of what it includes.
     ///
     /// # Errors
     /// Those of [`Source::read`].
-    pub fn parse(bytes: &[u8], path: &Path) -> Result<Source, DeckError> {
-        let mut source = Source::default();
+    pub fn parse(
+        bytes: &[u8],
+        path: &Path,
+        parameters_of: ParametersOf,
+    ) -> Result<Source, DeckError> {
+        let mut source = Source {
+            files: Vec::new(),
+            cards: Vec::new(),
+            forgiven: Vec::new(),
+            parameters_of,
+        };
         let mut lines = Vec::new();
         let mut open = vec![path.to_path_buf()];
         source.join(bytes, path, &mut open, &mut lines)?;
@@ -87,7 +99,7 @@ impl Source {
                 continue;
             }
             let line = match pending.take() {
-                Some(mut begun) if continues(&begun.text, line) => {
+                Some(mut begun) if self.continues(&begun.text, line) => {
                     begun.text.push_str(line);
                     begun
                 }
@@ -175,13 +187,28 @@ impl Source {
         Ok(())
     }
 
+    /// Whether a line after a keyword line that ends with a comma goes on with its parameters, as it does in Abaqus. They begin with a letter and are
+    /// parameters of the keyword, or have a value: what else follows is data, and the comma is one too many, as it always is in CalculiX.
+    fn continues(&self, begun: &str, line: &str) -> bool {
+        let word =
+            line.starts_with(|c: char| !(c == '*' || c.is_ascii_digit() || "+-.,".contains(c)));
+        let keyword = begun.trim_start_matches('*').split(',').next();
+        let keyword = squeeze(keyword.unwrap_or_default());
+        let Some(names) = (self.parameters_of)(&keyword) else {
+            return word;
+        };
+        let named = |part: &String| part.contains('=') || names.contains(&squeeze(part).as_str());
+        let parts = split(line);
+        word && parts.iter().filter(|p| !p.trim().is_empty()).all(named)
+    }
+
     /// Parameters whose names are cut short, as Abaqus lets them be where only one begins so.
     fn spell_out(&mut self, keyword: &str, parameters: &mut [Parameter], place: Place) {
-        let Some(row) = table::row(keyword) else {
+        let Some(names) = (self.parameters_of)(keyword) else {
             return;
         };
         for p in parameters {
-            if let Some(full) = row.abbreviated(&p.name) {
+            if let Some(full) = spelled_out(&names, &p.name) {
                 let message = format!("{} is taken as {full}", p.name);
                 self.forgiven.push((place, message));
                 p.name = full.into();
@@ -240,17 +267,14 @@ impl Source {
     }
 }
 
-/// Whether a line after a keyword line that ends with a comma goes on with its parameters, as it does in Abaqus. They begin with a letter and are
-/// parameters of the keyword, or have a value: what else follows is data, and the comma is one too many, as it always is in CalculiX.
-fn continues(begun: &str, line: &str) -> bool {
-    let word = line.starts_with(|c: char| !(c == '*' || c.is_ascii_digit() || "+-.,".contains(c)));
-    let keyword = begun.trim_start_matches('*').split(',').next();
-    let Some(row) = table::row(&squeeze(keyword.unwrap_or_default())) else {
-        return word;
-    };
-    let named = |part: &String| part.contains('=') || row.lists(&squeeze(part));
-    let parts = split(line);
-    word && parts.iter().filter(|p| !p.trim().is_empty()).all(named)
+/// The name that begins with one of at least four letters, where others that do only go on from it.
+fn spelled_out(names: &[&'static str], name: &str) -> Option<&'static str> {
+    if name.len() < 4 || names.contains(&name) {
+        return None;
+    }
+    let all = || names.iter().copied().filter(|n| n.starts_with(name));
+    let shortest = all().min_by_key(|n| n.len())?;
+    all().all(|n| n.starts_with(shortest)).then_some(shortest)
 }
 
 fn parameters(line: &str) -> Vec<Parameter> {

@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 
 use super::reader::Reader;
+use super::table;
 use super::uncomputed::{Beyond, kind_of_elements};
 use crate::card::{Card, Place};
 use crate::finding::{Finding, Severity};
-use crate::table;
 
 impl Reader<'_> {
     /// Whether nothing has been said against the deck so far.

@@ -1,9 +1,9 @@
 //! What the parameters and fields of a card say, or the finding that they do not say it.
 
+use super::known::absent;
 use super::reader::Reader;
 use crate::card::{Card, Data, Place};
 use crate::deck::Target;
-use crate::numbering::Numbering;
 use crate::text::{clip, number, squeeze, whole};
 
 /// Nodes by number or set.
@@ -33,6 +33,18 @@ impl Reader<'_> {
                 None
             }
         }
+    }
+
+    /// A parameter that must name something of the scope.
+    pub(super) fn required_name(&mut self, card: &Card, parameter: &str) -> Option<String> {
+        let name = self.required(card, parameter)?;
+        Some(self.scoped(&name))
+    }
+
+    /// The number by which the scope defines a node or an element, in the first field.
+    pub(super) fn own_number(&mut self, data: &Data) -> Option<u64> {
+        let n = self.whole(data, 0)?;
+        Some(self.deck.numbering.of(self.scope, n))
     }
 
     /// A field as a number, the default where it is empty or missing.
@@ -199,73 +211,4 @@ pub(super) fn keys(card: &Card) -> Vec<String> {
         .flat_map(|d| d.fields.iter().map(|f| squeeze(f)))
         .filter(|k| !k.is_empty())
         .collect()
-}
-
-/// What is said of a name that nothing has: the message, and a help.
-pub(super) fn absent<'n>(
-    numbering: &Numbering,
-    what: &str,
-    name: &str,
-    known: impl Iterator<Item = &'n String>,
-) -> (String, String) {
-    let whose = |n: &str| numbering.within(n).map(|(i, _)| i);
-    if let Some((instance, _)) = name.split_once('.')
-        && !numbering.instances().is_empty()
-        && whose(name).is_none()
-    {
-        let message = format!(
-            "there is no {what} {}: no instance is called {}",
-            clip(name),
-            clip(instance)
-        );
-        return (
-            message,
-            nearest(instance, "instances", numbering.instances()),
-        );
-    }
-    let message = format!("there is no {what} {}", clip(name));
-    // Of an instance where none is said: most likely it has been forgotten.
-    let known: Vec<&String> = known.collect();
-    let alike = |n: &&&String| numbering.within(n).is_some_and(|(_, bare)| bare == name);
-    let inner: Vec<&str> = known
-        .iter()
-        .filter(alike)
-        .take(3)
-        .map(|n| n.as_str())
-        .collect();
-    if !inner.is_empty() {
-        return (message, format!("did you mean {}?", inner.join(" or ")));
-    }
-    let own = known.into_iter().filter(|n| whose(n) == whose(name));
-    (message, listing(&plural(what), own))
-}
-
-fn plural(what: &str) -> String {
-    match what.strip_prefix("set of ") {
-        Some(members) => format!("sets of {members}"),
-        None => format!("{what}s"),
-    }
-}
-
-/// The name that is most like this one, and all there are, for a help.
-pub(super) fn nearest<S: AsRef<str>>(name: &str, what: &str, known: &[S]) -> String {
-    let edits = |k: &S| strsim::levenshtein(&clip(name), &clip(k.as_ref()));
-    let all = listing(what, known.iter().take(20));
-    match known.iter().min_by_key(|k| edits(k)) {
-        Some(best) if edits(best) <= 3 => format!("did you mean {}? {all}", best.as_ref()),
-        _ => all,
-    }
-}
-
-/// What there is, for a help.
-pub(super) fn listing<S: AsRef<str>>(what: &str, names: impl IntoIterator<Item = S>) -> String {
-    let names: Vec<String> = names
-        .into_iter()
-        .take(20)
-        .map(|n| n.as_ref().to_string())
-        .collect();
-    match names.is_empty() {
-        true => format!("the deck has no {what}"),
-        false => format!("{what}: {}", names.join(", ")),
-    }
 }

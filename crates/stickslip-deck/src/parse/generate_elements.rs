@@ -1,6 +1,6 @@
 //! `*ELGEN` and `*ELCOPY`: elements that are made of others, as in Abaqus.
 
-use super::fields::absent;
+use super::known::absent;
 use super::reader::Reader;
 use super::sets::add;
 use crate::card::{Card, Data, Place};

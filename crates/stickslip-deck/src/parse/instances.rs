@@ -5,11 +5,11 @@
 
 use stickslip::io::abaqus::{self, Space};
 
-use super::cards;
-use super::fields::nearest;
 use super::generate_elements;
+use super::known::nearest;
 use super::reader::Reader;
-use super::structure::{Assembly, Level, OpenInstance, Part, STRUCTURE};
+use super::structure::{Assembly, Inside, Level, OpenInstance, Part};
+use super::table::{self, Row};
 use crate::card::{Card, Place};
 use crate::motion::Motion;
 use crate::numbering::Numbering;
@@ -35,10 +35,10 @@ pub(super) fn numbering(source: &Source) -> Numbering {
 
 impl Reader<'_> {
     /// Closes what has no end of its own where a card can only stand behind it.
-    pub(super) fn close_before(&mut self, card: &Card) {
+    pub(super) fn close_before(&mut self, card: &Card, row: &Row) {
         let keyword = card.keyword.as_str();
-        let ends =
-            |own: &str| keyword == "STEP" || (keyword != own && STRUCTURE.contains(&keyword));
+        let structure = row.level == Level::Structure;
+        let ends = |own: &str| keyword == "STEP" || (keyword != own && structure);
         if self.structure.part.is_some() && ends("ENDPART") {
             self.without_end_part(card.place);
         }
@@ -46,7 +46,7 @@ impl Reader<'_> {
             self.without_end_instance();
         }
         let other = matches!(keyword, "STEP" | "ASSEMBLY");
-        if other && self.structure.level() == Level::Assembly {
+        if other && self.structure.inside() == Inside::Assembly {
             self.without_end_assembly();
         }
     }
@@ -60,7 +60,7 @@ impl Reader<'_> {
         if self.structure.instance.is_some() {
             self.without_end_instance();
         }
-        if self.structure.level() == Level::Assembly {
+        if self.structure.inside() == Inside::Assembly {
             self.without_end_assembly();
         }
         let left: Vec<(String, Place)> = (self.structure.parts.iter())
@@ -132,10 +132,10 @@ impl Reader<'_> {
     }
 
     /// Whether a card may stand where it does; it is an error if not.
-    pub(super) fn in_its_place(&mut self, card: &Card) -> bool {
-        let level = self.structure.level();
-        let beneath = cards::BENEATH.contains(&card.keyword.as_str());
-        if level.allows(&card.keyword) {
+    pub(super) fn in_its_place(&mut self, card: &Card, row: &Row) -> bool {
+        let inside = self.structure.inside();
+        let beneath = row.beneath;
+        if inside.allows(row.level) {
             self.structure.misplaced = false;
             return true;
         }
@@ -144,8 +144,8 @@ impl Reader<'_> {
             return false;
         }
         self.structure.misplaced = !beneath;
-        let (whose, help) = match level {
-            Level::Assembly => (
+        let (whose, help) = match inside {
+            Inside::Assembly => (
                 "the assembly".to_string(),
                 "write it behind *END ASSEMBLY: the assembly has instances, nodes, elements, sets, surfaces, ties and equations",
             ),
@@ -174,9 +174,9 @@ impl Reader<'_> {
     }
 
     /// Keeps a card of a part for its instances; `false` if it is to be read now.
-    pub(super) fn record(&mut self, card: &Card) -> bool {
+    pub(super) fn record(&mut self, row: &Row) -> bool {
         match &mut self.structure.part {
-            Some((_, part)) if !STRUCTURE.contains(&card.keyword.as_str()) => {
+            Some((_, part)) if row.level != Level::Structure => {
                 part.cards.push(self.structure.at);
                 true
             }
@@ -186,7 +186,7 @@ impl Reader<'_> {
 
     pub(super) fn part(&mut self, card: &Card) {
         let name = self.required(card, "NAME").unwrap_or_default();
-        if self.structure.level() != Level::Model {
+        if self.structure.inside() != Inside::Model {
             self.error(
                 card.place,
                 format!("{} stands in the assembly", card.written),
@@ -255,7 +255,7 @@ impl Reader<'_> {
 
     pub(super) fn instance(&mut self, card: &Card) {
         let name = self.required(card, "NAME").unwrap_or_default();
-        if self.structure.level() != Level::Assembly {
+        if self.structure.inside() != Inside::Assembly {
             self.error(
                 card.place,
                 format!("{} stands outside of *ASSEMBLY", card.written),
@@ -357,7 +357,7 @@ impl Reader<'_> {
         }
         self.structure.again = again;
         for i in list {
-            if let Some(read) = cards::reader_of(&source.cards[i].keyword) {
+            if let Some(read) = table::row(&source.cards[i].keyword).and_then(|r| r.reader) {
                 read(self, &source.cards[i]);
             }
         }

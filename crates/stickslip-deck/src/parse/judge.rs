@@ -1,8 +1,8 @@
 //! Nothing that a card says is dropped: its parameters and data are held against its row of the table.
 
 use super::reader::Reader;
+use super::table::{Fate, Row};
 use crate::card::Card;
-use crate::table::{Fate, Row};
 use crate::text::clip;
 
 impl Reader<'_> {

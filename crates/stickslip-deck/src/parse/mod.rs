@@ -1,7 +1,6 @@
 //! Cards to a [`Deck`].
 
 mod beyond;
-mod cards;
 mod couplings;
 mod elements;
 mod fields;
@@ -12,6 +11,7 @@ mod initial;
 mod instances;
 mod interaction;
 mod judge;
+mod known;
 mod links;
 mod loads;
 mod material;
@@ -27,6 +27,7 @@ mod sets;
 mod step;
 mod structure;
 mod surfaces;
+mod table;
 mod times;
 mod uncomputed;
 mod unused;
@@ -34,12 +35,13 @@ mod unused;
 use std::path::Path;
 
 use reader::{Context, Reader};
+use structure::Level;
+use table::{Fate, Row};
 
 use crate::card::{Card, Place};
 use crate::deck::Deck;
 use crate::finding::DeckError;
 use crate::source::Source;
-use crate::table::{self, Fate, Row};
 
 impl Deck {
     /// Reads a deck and all it includes.
@@ -47,7 +49,7 @@ impl Deck {
     /// # Errors
     /// Everything that is wrong or not supported, each with file and line.
     pub fn read(path: &Path) -> Result<Deck, DeckError> {
-        Deck::from_source(&Source::read(path)?)
+        Deck::from_source(&Source::read(path, parameters)?)
     }
 
     /// The same from the bytes of the first file; `path` is for messages, and for the folder of included files.
@@ -55,7 +57,7 @@ impl Deck {
     /// # Errors
     /// Those of [`Deck::read`].
     pub fn parse(bytes: &[u8], path: &Path) -> Result<Deck, DeckError> {
-        Deck::from_source(&Source::parse(bytes, path)?)
+        Deck::from_source(&Source::parse(bytes, path, parameters)?)
     }
 
     /// The meaning of cards.
@@ -74,6 +76,11 @@ impl Deck {
         }
         reader.finish()
     }
+}
+
+/// The names of the parameters of a keyword.
+fn parameters(keyword: &str) -> Option<Vec<&'static str>> {
+    table::row(keyword).map(Row::names)
 }
 
 impl Reader<'_> {
@@ -134,7 +141,7 @@ impl Reader<'_> {
             }
             Fate::Refused(help) => {
                 // One finding a cause: the step has a procedure, if not one of ours.
-                self.position.procedure |= cards::OTHER_PROCEDURES.contains(&card.keyword.as_str());
+                self.position.procedure |= row.procedure;
                 self.card_beyond(card, help);
             }
         }
@@ -149,17 +156,17 @@ impl Reader<'_> {
             return;
         };
         let sound = self.judge(card, row);
-        self.close_before(card);
-        if !self.in_its_place(card) {
+        self.close_before(card, row);
+        if !self.in_its_place(card, row) {
             return;
         }
-        if self.structure.incomplete && !structure::STRUCTURE.contains(&card.keyword.as_str()) {
+        if self.structure.incomplete && row.level != Level::Structure {
             return;
         }
-        if !cards::BENEATH.contains(&card.keyword.as_str()) {
+        if !row.beneath {
             self.position.context = Context::None;
         }
-        if !(sound || cards::NAMES.contains(&card.keyword.as_str())) {
+        if !(sound || row.kept) {
             // What follows builds on what is not there.
             self.messages.stopped = card.keyword == "RESTART";
             if self.messages.stopped {
@@ -168,17 +175,11 @@ impl Reader<'_> {
             }
             return;
         }
-        if self.record(card) {
+        if self.record(row) {
             return;
         }
-        match cards::reader_of(&card.keyword) {
-            Some(read) => read(self, card),
-            None => unreachable_row(&card.keyword),
+        if let Some(read) = row.reader {
+            read(self, card);
         }
     }
-}
-
-/// The table calls a card read for which there is no reader: a mistake here, which the test of the table finds.
-fn unreachable_row(keyword: &str) {
-    debug_assert!(false, "*{keyword} is read by nothing");
 }

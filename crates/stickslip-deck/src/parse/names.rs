@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::fields::{absent, listing};
+use super::known::{absent, listing};
 use super::reader::Reader;
 use crate::card::Place;
 use crate::deck::{Action, Adjust, Boundary, Deck, Distributed, Target, Temperature, Tied};
@@ -34,17 +34,6 @@ impl Reader<'_> {
             }
         }
         self.sort_errors();
-    }
-
-    /// In the order of the deck.
-    pub(super) fn sort_errors(&mut self) {
-        self.messages.errors.sort_by_key(|f| {
-            self.source
-                .files
-                .iter()
-                .position(|p| *p == f.file)
-                .map(|p| (p, f.line))
-        });
     }
 }
 

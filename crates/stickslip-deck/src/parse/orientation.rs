@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::fields::absent;
+use super::known::absent;
 use super::reader::Reader;
 use crate::card::{Card, Data};
 use crate::deck::{Distribution, DistributionLine, Local, Orientation, Target};

@@ -3,7 +3,8 @@
 use stickslip::io::frd::Encoding;
 use stickslip::results::Quantity;
 
-use super::fields::{absent, keys, parameter};
+use super::fields::{keys, parameter};
+use super::known::absent;
 use super::reader::Reader;
 use crate::card::Card;
 use crate::deck::{Deck, FieldsOf, Filed, Print, SurfaceParts, Totals, When};

@@ -158,6 +158,17 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// Puts errors in the order of the deck.
+    pub(super) fn sort_errors(&mut self) {
+        self.messages.errors.sort_by_key(|f| {
+            self.source
+                .files
+                .iter()
+                .position(|p| *p == f.file)
+                .map(|p| (p, f.line))
+        });
+    }
+
     /// Whether something has been said of a line of a part for an instance before.
     fn said(&self, finding: &Finding, before: &[Finding]) -> bool {
         let here = |f: &Finding| f.line == finding.line && f.file == finding.file;

@@ -1,8 +1,8 @@
 //! Whose names and numbers are meant: those of an instance, or of what stands outside of all.
 
-use super::fields::nearest;
+use super::known::nearest;
 use super::reader::Reader;
-use crate::card::{Card, Data};
+use crate::card::Card;
 use crate::motion::Motion;
 use crate::text::{clip, label, whole};
 
@@ -45,18 +45,6 @@ impl Reader<'_> {
         let name = self.outside(&label(text));
         let (instance, own) = numbering.within(&name)?;
         Some(numbering.of(Some(instance), whole(own)?))
-    }
-
-    /// The number by which the scope defines a node or an element, in the first field.
-    pub(super) fn own_number(&mut self, data: &Data) -> Option<u64> {
-        let n = self.whole(data, 0)?;
-        Some(self.deck.numbering.of(self.scope, n))
-    }
-
-    /// A parameter that must name something of the scope.
-    pub(super) fn required_name(&mut self, card: &Card, parameter: &str) -> Option<String> {
-        let name = self.required(card, parameter)?;
-        Some(self.scoped(&name))
     }
 
     /// Where the scope is put.

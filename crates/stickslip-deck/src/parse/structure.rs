@@ -54,81 +54,48 @@ pub(super) struct Structure {
     pub incomplete: bool,
 }
 
-/// Where in a deck a card can stand.
+/// Where a card may stand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Level {
+pub(crate) enum Level {
+    /// Outside of parts and of the assembly.
+    Model,
+    /// In the assembly, too, but in no part or instance.
+    Assembly,
+    /// In parts, instances and the assembly, too.
+    Mesh,
+    /// It makes this structure itself: parts, assembly and instances.
+    Structure,
+}
+
+/// Where in a deck a card stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Inside {
     Model,
     Part,
     Assembly,
     Instance,
 }
 
-/// Cards that make the structure.
-pub(super) const STRUCTURE: [&str; 6] = [
-    "PART",
-    "ENDPART",
-    "ASSEMBLY",
-    "ENDASSEMBLY",
-    "INSTANCE",
-    "ENDINSTANCE",
-];
-
-/// Cards of a part or of an instance.
-const MESH: [&str; 30] = [
-    "NODE",
-    "ELEMENT",
-    "NGEN",
-    "NFILL",
-    "NCOPY",
-    "ELGEN",
-    "ELCOPY",
-    "NSET",
-    "ELSET",
-    "SURFACE",
-    "SYSTEM",
-    "TRANSFORM",
-    "NORMAL",
-    "ORIENTATION",
-    "DISTRIBUTION",
-    "DISTRIBUTIONTABLE",
-    "SOLIDSECTION",
-    "EQUATION",
-    "RIGIDBODY",
-    "PRE-TENSIONSECTION",
-    "COUPLING",
-    "KINEMATIC",
-    "DISTRIBUTING",
-    "KINEMATICCOUPLING",
-    "DISTRIBUTINGCOUPLING",
-    "MPC",
-    "SPRING",
-    "DASHPOT",
-    "GAP",
-    "MASS",
-];
-
 impl Structure {
     /// Where the next card stands.
-    pub fn level(&self) -> Level {
+    pub fn inside(&self) -> Inside {
         let open = self.assembly.as_ref().is_some_and(|a| a.open);
         match (&self.part, &self.instance) {
-            (Some(_), _) => Level::Part,
-            (None, Some(_)) => Level::Instance,
-            (None, None) if open => Level::Assembly,
-            (None, None) => Level::Model,
+            (Some(_), _) => Inside::Part,
+            (None, Some(_)) => Inside::Instance,
+            (None, None) if open => Inside::Assembly,
+            (None, None) => Inside::Model,
         }
     }
 }
 
-impl Level {
-    /// Whether a card may stand here.
-    pub fn allows(self, keyword: &str) -> bool {
-        let mesh = || MESH.contains(&keyword);
-        match self {
-            _ if STRUCTURE.contains(&keyword) => true,
-            Level::Model => true,
-            Level::Part | Level::Instance => mesh(),
-            Level::Assembly => mesh() || keyword == "TIE",
+impl Inside {
+    /// Whether a card of a level may stand here.
+    pub fn allows(self, level: Level) -> bool {
+        match level {
+            Level::Structure | Level::Mesh => true,
+            Level::Model => self == Inside::Model,
+            Level::Assembly => matches!(self, Inside::Model | Inside::Assembly),
         }
     }
 }

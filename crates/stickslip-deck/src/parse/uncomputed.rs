@@ -1,7 +1,15 @@
 //! Kinds of things that are not computed.
 
 use crate::card::Place;
-use crate::table;
+
+pub(super) const SHELLS: &str = "shells";
+pub(super) const BEAMS: &str = "beams";
+pub(super) const MEMBRANES: &str = "membranes";
+pub(super) const NETWORKS: &str = "networks of flows";
+pub(super) const CONNECTORS: &str = "connectors";
+pub(super) const COHESIVE: &str = "cohesive elements";
+pub(super) const USER_ELEMENTS: &str = "elements of the user";
+pub(super) const HEAT: &str = "temperatures by heat transfer";
 
 /// Something that is not computed, wherever the deck has it.
 #[derive(Debug, Clone)]
@@ -17,16 +25,16 @@ pub(super) struct Beyond {
 /// What elements are, as a kind of things.
 pub(super) fn kind_of_elements(what: &'static str) -> Option<&'static str> {
     Some(match what {
-        "a shell" | "a continuum shell" => table::SHELLS,
-        "a beam" | "a pipe" => table::BEAMS,
+        "a shell" | "a continuum shell" => SHELLS,
+        "a beam" | "a pipe" => BEAMS,
         "a truss" => "trusses",
-        "a membrane" => table::MEMBRANES,
-        "a connector" => table::CONNECTORS,
-        "a cohesive element" => table::COHESIVE,
+        "a membrane" => MEMBRANES,
+        "a connector" => CONNECTORS,
+        "a cohesive element" => COHESIVE,
         "an acoustic element" => "acoustic elements",
-        "an element of heat transfer" => table::HEAT,
-        "an element of a network of flows" => table::NETWORKS,
-        "an element of the user" => table::USER_ELEMENTS,
+        "an element of heat transfer" => HEAT,
+        "an element of a network of flows" => NETWORKS,
+        "an element of the user" => USER_ELEMENTS,
         _ => return None,
     })
 }

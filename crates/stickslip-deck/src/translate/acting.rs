@@ -2,9 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use stickslip::body::loads::LoadKind;
+use stickslip::problem::Load;
+
+use super::courses;
 use super::job::Job;
+use super::names::problem_name;
 use super::part::Part;
-use super::{courses, toml};
 use crate::card::Place;
 use crate::deck::{Deck, Target};
 
@@ -103,22 +107,33 @@ pub(super) fn two_courses(job: &mut Job, place: Place) {
     );
 }
 
-/// Opens the table of a load and writes what all have in common.
-pub(super) fn open(job: &mut Job, name: &str, set: &str, place: Place, when: &When) {
-    let name = job.fresh("load", &toml::name(name));
+/// A load, under a name that begins like this.
+pub(super) fn add_load(
+    job: &mut Job,
+    wanted: &str,
+    set: String,
+    place: Place,
+    when: &When,
+    kind: LoadKind,
+) {
+    let name = job.fresh::<Load>(&problem_name(wanted));
+    let mut load = Load {
+        set,
+        amplitude: None,
+        follow: false,
+        kind,
+    };
     if job.part != Part::Lasting {
-        job.table("load", &name, place);
-        job.out.line(&format!("set = {}", toml::text(set)));
+        job.add(&name, place, load);
         job.shaking
             .push((name.clone(), job.part, when.steps.clone()));
         // It acts in no step but as what shakes.
-        job.active
-            .push(("loads", name, vec![false; when.steps.len()]));
+        job.acts::<Load>(name, vec![false; when.steps.len()]);
         return;
     }
     // From the first step on, where steps change without amplitudes as they usually do not.
     let unusual = when.amplitude.is_none() && courses::unusual(job.deck);
-    let factor = match (&when.amplitude, unusual || when.ends.contains(&true)) {
+    load.amplitude = match (&when.amplitude, unusual || when.ends.contains(&true)) {
         (None, false) => None,
         (Some(a), false) => Some(courses::amplitude(job, a, &when.steps, &when.kept, &name)),
         (a, true) => Some(courses::ending(
@@ -136,13 +151,8 @@ pub(super) fn open(job: &mut Job, name: &str, set: &str, place: Place, when: &Wh
         let first = steps.iter().position(|on| *on).unwrap_or(0);
         steps[first..].fill(true);
     }
-    job.table("load", &name, place);
-    job.out.line(&format!("set = {}", toml::text(set)));
-    if let Some(factor) = factor {
-        job.out
-            .line(&format!("amplitude = {}", toml::text(&factor)));
-    }
-    job.active.push(("loads", name, steps));
+    job.add(&name, place, load);
+    job.acts::<Load>(name, steps);
 }
 
 pub(super) fn label(deck: &Deck, target: &Target) -> String {

@@ -6,7 +6,7 @@ use stickslip::io::abaqus::{self, ElementType, Space};
 use stickslip::mesh::{Block, CellRef, FacetRef, Mesh};
 
 use super::job::Job;
-use super::toml;
+use super::names::problem_name;
 use crate::card::Place;
 use crate::deck::{Deck, SurfaceParts};
 
@@ -380,7 +380,7 @@ fn instance(deck: &Deck, body: &Body) -> Option<String> {
     let mut all = deck.elements.range(first..=last);
     let whole = body.elements.range(..first).next().is_none()
         && all.all(|(id, _)| body.elements.contains(id));
-    whole.then(|| toml::name(name.unwrap_or_default()))
+    whole.then(|| problem_name(name.unwrap_or_default()))
 }
 
 /// A body is called like its instance, or the set of just its elements, or by a number.
@@ -404,7 +404,7 @@ fn names(job: &Job, bodies: &mut Bodies) {
         };
         let all = deck.element_sets.keys();
         let mut sets = known.chain(all.clone()).filter(own).chain(all);
-        let of_set = || sets.find(same).map(|n| toml::name(n));
+        let of_set = || sets.find(same).map(|n| problem_name(n));
         body.name = instance(deck, body)
             .or_else(of_set)
             .filter(|n| !taken.contains(n))

@@ -3,26 +3,27 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use stickslip::body::Formulation;
 use stickslip::io::abaqus::{self, Integration, Space};
+use stickslip::problem::{self, BodyRotation, GmshFile, MeshSource, Rayleigh, SpaceKind};
 
 use super::bodies::{Bodies, Body};
 use super::job::Job;
 use super::sets::Sets;
-use super::toml;
 use crate::card::Place;
 use crate::deck::{Action, Distributed, Procedure, Section, Step};
 
-fn space_name(space: Space) -> &'static str {
+fn space_kind(space: Space) -> SpaceKind {
     match space {
-        Space::Solid => "solid",
-        Space::PlaneStress => "plane-stress",
-        Space::PlaneStrain => "plane-strain",
-        Space::Axisymmetric => "axisymmetric",
+        Space::Solid => SpaceKind::Solid,
+        Space::PlaneStress => SpaceKind::PlaneStress,
+        Space::PlaneStrain => SpaceKind::PlaneStrain,
+        Space::Axisymmetric => SpaceKind::Axisymmetric,
     }
 }
 
 /// How the elements of a body are integrated.
-fn formulation(job: &mut Job, body: &Body) -> Option<&'static str> {
+fn formulation(job: &mut Job, body: &Body) -> Formulation {
     let deck = job.deck;
     let mut found: Option<(Integration, u64)> = None;
     for id in &body.elements {
@@ -46,7 +47,7 @@ fn formulation(job: &mut Job, body: &Body) -> Option<&'static str> {
                     deck.label(first)
                 );
                 job.warn(e.place, message, "use one type of element in a body");
-                return None;
+                return Formulation::Standard;
             }
             Some(_) => {}
         }
@@ -54,21 +55,18 @@ fn formulation(job: &mut Job, body: &Body) -> Option<&'static str> {
     // C3D6 has two integration points; ours has six unless it is reduced.
     let wedges = |id: &u64| deck.elements[id].kind.starts_with("C3D6");
     if found.is_none() && body.elements.iter().any(wedges) {
-        return Some("reduced");
+        return Formulation::Reduced;
     }
     match found.map(|f| f.0) {
-        Some(Integration::Reduced) => Some("reduced"),
-        Some(Integration::Incompatible) => Some("incompatible-modes"),
-        Some(Integration::Full) | None => None,
+        Some(Integration::Reduced) => Formulation::Reduced,
+        Some(Integration::Incompatible) => Formulation::IncompatibleModes,
+        Some(Integration::Full) | None => Formulation::Standard,
     }
 }
 
 pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets, mesh_name: &Path) {
     let deck = job.deck;
-    job.out.line("");
-    job.out.line("[model]");
-    job.out
-        .line(&format!("space = \"{}\"", space_name(bodies.space)));
+    job.problem.model.space = space_kind(bodies.space);
     if matches!(bodies.space, Space::PlaneStress | Space::PlaneStrain) {
         let thick: BTreeMap<u64, &Section> = deck
             .properties
@@ -88,9 +86,8 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets, mesh_name: 
                 "all bodies of a plane problem have the same thickness",
             );
         }
-        if let Some(t) = deck.properties.sections.iter().find_map(|s| s.thickness) {
-            job.out.line(&format!("thickness = {}", toml::number(t)));
-        }
+        let mut thicknesses = deck.properties.sections.iter().map(|s| s.thickness);
+        job.problem.model.thickness = thicknesses.find_map(|t| t);
     }
     let held = held(job);
     let bends = bends(job, bodies.space);
@@ -98,13 +95,7 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets, mesh_name: 
     job.strains = !bends && job.deck.steps.iter().any(|s| s.nonlinear);
     for body in &bodies.all {
         let formulation = formulation(job, body);
-        job.table("body", &body.name, body.place);
         let group = sets.cells(bodies, &body.name, body.elements.iter().copied().collect());
-        let file = toml::text(&mesh_name.to_string_lossy());
-        job.out.line(&format!(
-            "gmsh = {{ file = {file}, group = {} }}",
-            toml::text(&group)
-        ));
         let mut regions: BTreeMap<String, Vec<u64>> = BTreeMap::new();
         for e in &body.elements {
             if let Some(m) = bodies.material.get(e) {
@@ -112,40 +103,43 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets, mesh_name: 
                 regions.entry(name).or_default().push(*e);
             }
         }
-        match regions.len() {
-            1 => {
-                for material in regions.keys() {
-                    job.out
-                        .line(&format!("material = {}", toml::text(material)));
-                }
-            }
-            _ => {
-                for (material, elements) in regions {
-                    let set = sets.cells(bodies, &format!("{}-{material}", body.name), elements);
-                    job.out.line(&format!(
-                        "regions.{} = {}",
-                        toml::key(&set),
-                        toml::text(&material)
-                    ));
-                }
-            }
-        }
-        if let Some(f) = formulation {
-            job.out.line(&format!("formulation = \"{f}\""));
-        }
-        if body.rigid.is_some() {
-            job.out.line("rigid = true");
+        let alone = regions.len() == 1;
+        let material = regions.keys().next().filter(|_| alone).cloned();
+        regions.retain(|_, _| !alone);
+        let regions = regions.into_iter().map(|(material, elements)| {
+            let wanted = format!("{}-{material}", body.name);
+            (sets.cells(bodies, &wanted, elements), material)
+        });
+        let regions = regions.collect();
+        let rotation = if body.rigid.is_some() {
+            BodyRotation::Small
         } else if turns_freely(job, &held, bodies.space, body) {
-            job.out.line("rotation = \"large\"");
             let message = format!(
                 "NLGEOM: body {} is held by nothing and may turn by any angle; its strains are taken as small",
                 body.name
             );
             job.note(body.place, message);
+            BodyRotation::Large
         } else if bends {
-            job.out.line("rotation = \"corotational\"");
-        }
-        damping(job, bodies, body);
+            BodyRotation::Corotational
+        } else {
+            BodyRotation::Small
+        };
+        let table = problem::Body {
+            material,
+            regions,
+            rigid: body.rigid.is_some(),
+            rotation,
+            formulation,
+            scale: 1.0,
+            translate: None,
+            rayleigh: damping(job, bodies, body),
+            mesh: MeshSource::Gmsh(GmshFile {
+                file: mesh_name.to_path_buf(),
+                group: Some(group),
+            }),
+        };
+        job.add(&body.name, body.place, table);
     }
 }
 
@@ -239,7 +233,7 @@ fn bends(job: &mut Job, space: Space) -> bool {
     reasons.iter().all(|(applies, _)| !applies)
 }
 
-fn damping(job: &mut Job, bodies: &Bodies, body: &Body) {
+fn damping(job: &mut Job, bodies: &Bodies, body: &Body) -> Option<Rayleigh> {
     let deck = job.deck;
     let of = |e: &u64| {
         let s = &deck.properties.sections[*bodies.section.get(e)?];
@@ -253,9 +247,7 @@ fn damping(job: &mut Job, bodies: &Bodies, body: &Body) {
         ))
     };
     let mut all = body.elements.iter().filter_map(of);
-    let Some((first, place)) = all.next() else {
-        return;
-    };
+    let (first, place) = all.next()?;
     if all.any(|(d, _)| d != first) {
         job.error(
             place,
@@ -265,11 +257,7 @@ fn damping(job: &mut Job, bodies: &Bodies, body: &Body) {
             ),
             "Rayleigh damping is that of a whole body",
         );
-    } else if first != [0.0; 2] {
-        job.out.line(&format!(
-            "rayleigh = {{ mass = {}, stiffness = {} }}",
-            toml::number(first[0]),
-            toml::number(first[1])
-        ));
     }
+    let [mass, stiffness] = first;
+    (first != [0.0; 2]).then_some(Rayleigh { mass, stiffness })
 }

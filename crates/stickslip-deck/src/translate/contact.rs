@@ -2,11 +2,20 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use stickslip::contact::discretisation::{DiscretisationModel, NodeToFacet};
+use stickslip::contact::enforcement::{EnforcementModel, Penalty};
+use stickslip::contact::interface::{Change, Start};
+use stickslip::contact::kinematics::{KinematicsModel, SmallSliding};
+use stickslip::contact::law::damping::{DampingModel, Viscous};
+use stickslip::contact::law::friction::{self, Coulomb, ExponentialDecay, FrictionModel};
+use stickslip::contact::law::normal::{self, Exponential, Linear, NormalModel};
+use stickslip::problem::{Interface, Roles};
+
 use super::bodies::Bodies;
 use super::job::Job;
 use super::measure::measure;
+use super::names::problem_name;
 use super::sets::Sets;
-use super::toml;
 use crate::card::Place;
 use crate::deck::{
     Action, Adjust, Behavior, Deck, Friction, Interaction, Pair, Print, SurfaceParts, Target,
@@ -49,12 +58,12 @@ fn parts(
                 }
             }
             by.into_iter()
-                .map(|(b, list)| (b, sets.points(bodies, &toml::name(name), &list)))
+                .map(|(b, list)| (b, sets.points(bodies, &problem_name(name), &list)))
                 .collect()
         }
         faces => {
             let by = bodies.faces(faces);
-            sets.facets(bodies, &toml::name(name), &by)
+            sets.facets(bodies, &problem_name(name), &by)
         }
     }
 }
@@ -88,12 +97,16 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                     ),
                 };
                 for (interaction, steps) in phases(job, pair) {
-                    let name = job.fresh("interface", &toml::name(&wanted));
-                    interface(job, bodies, sets, &name, pair, &interaction, [from, to]);
+                    let name = job.fresh::<Interface>(&problem_name(&wanted));
+                    let mut interface = between(from, to);
+                    match interaction.behavior {
+                        Some(Behavior::Tied(k)) => tie(job, &mut interface, pair, &interaction, k),
+                        _ => touch(job, bodies, sets, &mut interface, pair, &interaction),
+                    }
+                    job.add(&name, pair.place, interface);
                     let present = present(deck, pair);
                     let acts = present.iter().zip(&steps).map(|(a, b)| *a && *b);
-                    job.active
-                        .push(("interfaces", name.clone(), acts.collect()));
+                    job.acts::<Interface>(name.clone(), acts.collect());
                     job.pairs
                         .push((name, pair.slave.clone(), pair.master.clone()));
                 }
@@ -154,21 +167,19 @@ fn ties(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                 if s == p && meet(job, bodies, &tie.slave, &tie.master, *s, tie.place) {
                     continue;
                 }
-                let name = job.fresh("interface", &toml::name(&tie.name));
-                job.table("interface", &name, tie.place);
-                job.out.line(&format!("secondary = {}", toml::text(from)));
-                job.out.line(&format!("primary = {}", toml::text(to)));
-                job.out.line("tied = true");
-                job.out.line("kinematics.small-sliding = {}");
-                by_points(job, &tie.slave);
-                if tie.adjust {
-                    job.out.line("initial = \"snap\"");
+                let name = job.fresh::<Interface>(&problem_name(&tie.name));
+                let usual = || TOLERANCE * face_size(job, bodies, &tie.master);
+                let mut interface = between(from, to);
+                interface.tied = true;
+                interface.kinematics = small_sliding();
+                if of_nodes(deck, &tie.slave) {
+                    interface.discretisation = Some(by_points());
                 }
-                let distance = tie
-                    .tolerance
-                    .unwrap_or_else(|| TOLERANCE * face_size(job, bodies, &tie.master));
-                job.out
-                    .line(&format!("initial-distance = {}", toml::number(distance)));
+                if tie.adjust {
+                    interface.initial = Start::Snap;
+                }
+                interface.initial_distance = Some(tie.tolerance.unwrap_or_else(usual));
+                job.add(name, tie.place, interface);
             }
         }
     }
@@ -193,14 +204,26 @@ fn face_size(job: &Job, bodies: &Bodies, surface: &str) -> f64 {
     if bodies.dim() == 3 { mean.sqrt() } else { mean }
 }
 
-/// A slave surface of nodes is met by points.
-fn by_points(job: &mut Job, surface: &str) -> bool {
-    let surface = job.deck.surfaces.get(surface);
-    let nodes = surface.is_some_and(|s| matches!(s.parts, SurfaceParts::Nodes(_)));
-    if nodes {
-        job.out.line("discretisation.node-to-facet = {}");
+/// Whether a surface consists of nodes: as a slave it is met by points.
+fn of_nodes(deck: &Deck, surface: &str) -> bool {
+    let surface = deck.surfaces.get(surface);
+    surface.is_some_and(|s| matches!(s.parts, SurfaceParts::Nodes(_)))
+}
+
+fn between(secondary: &str, primary: &str) -> Interface {
+    Interface {
+        secondary: secondary.into(),
+        primary: primary.into(),
+        ..Interface::default()
     }
-    nodes
+}
+
+fn by_points() -> DiscretisationModel {
+    DiscretisationModel::NodeToFacet(NodeToFacet {})
+}
+
+fn small_sliding() -> KinematicsModel {
+    KinematicsModel::SmallSliding(SmallSliding {})
 }
 
 /// The nodes of a surface.
@@ -249,28 +272,19 @@ fn meet(
     true
 }
 
-fn interface(
+/// What an interface is by its pair and interaction.
+fn touch(
     job: &mut Job,
     bodies: &Bodies,
     sets: &mut Sets,
-    name: &str,
+    interface: &mut Interface,
     pair: &Pair,
     interaction: &Interaction,
-    [from, to]: [&str; 2],
 ) {
     let deck = job.deck;
-    job.table("interface", name, pair.place);
-    job.out.line(&format!("secondary = {}", toml::text(from)));
-    job.out.line(&format!("primary = {}", toml::text(to)));
-    if let Some(Behavior::Tied(stiffness)) = &interaction.behavior {
-        tied(job, pair, interaction, *stiffness);
-        return;
-    }
-    if let Some(line) = normal(interaction.behavior.as_ref(), pair.by_nodes) {
-        job.out.line(&line);
-    }
-    let nodes = deck.surfaces.get(&pair.slave);
-    if compliant(interaction) && nodes.is_some_and(|s| matches!(s.parts, SurfaceParts::Nodes(_))) {
+    let by_nodes = of_nodes(deck, &pair.slave);
+    interface.normal = normal(interaction.behavior.as_ref(), pair.by_nodes).unwrap_or_default();
+    if compliant(interaction) && by_nodes {
         job.warn(
             pair.place,
             format!(
@@ -281,28 +295,27 @@ fn interface(
         );
     }
     if let Some(f) = &interaction.friction {
-        job.out.line(&friction(f));
+        interface.friction = friction(f);
     }
-    enforcement(job, interaction);
-    if let Some([d, _]) = interaction.damping
-        && d > 0.0
+    if let Some(stick) = stick(job, interaction) {
+        interface.enforcement = penalty(None, stick);
+    }
+    if let Some([coefficient, _]) = interaction.damping
+        && coefficient > 0.0
     {
-        job.out.line(&format!(
-            "damping.viscous = {{ coefficient = {} }}",
-            toml::number(d)
-        ));
+        interface.damping = DampingModel::Viscous(Viscous { coefficient });
     }
     if printed_by_node(deck) {
         // What is printed are the nodes of the slave, whichever side has the smaller cells.
-        job.out.line("roles = \"as-named\"");
+        interface.roles = Roles::AsNamed;
     }
     // CalculiX integrates penalty springs over the faces; on quadratic ones that is what the points of the faces do here.
     let quadratic = compliant(interaction) && curved(job, pair);
-    if !by_points(job, &pair.slave) && (pair.by_nodes || quadratic) {
-        job.out.line("discretisation.node-to-facet = {}");
+    if by_nodes || pair.by_nodes || quadratic {
+        interface.discretisation = Some(by_points());
     }
     if pair.small_sliding {
-        job.out.line("kinematics.small-sliding = {}");
+        interface.kinematics = small_sliding();
     }
     let clearance = deck
         .contact
@@ -311,17 +324,14 @@ fn interface(
         .find(|c| c.slave == pair.slave && c.master == pair.master);
     if let Some(clearance) = clearance {
         // Whatever gap the meshes have counts as this.
-        job.out.line("initial = \"offset\"");
-        job.out.line("initial-tolerance = 1e3");
-        if clearance.value != 0.0 {
-            job.out
-                .line(&format!("initial-gap = {}", toml::number(clearance.value)));
-        }
-    } else if pair.adjust.is_some() {
-        adjust(job, bodies, sets, pair);
+        interface.initial = Start::Offset;
+        interface.initial_tolerance = Some(1e3);
+        interface.initial_gap = Some(clearance.value).filter(|v| *v != 0.0);
+    } else if let Some(how) = &pair.adjust {
+        adjust(job, bodies, sets, interface, pair, how);
     } else if !pair.by_nodes && begins_at_rest(deck, pair) {
         // As CalculiX does where faces meet faces: overlap goes away over the step.
-        job.out.line("initial = \"ramp\"");
+        interface.initial = Start::Ramp;
     }
 }
 
@@ -332,12 +342,20 @@ fn begins_at_rest(deck: &Deck, pair: &Pair) -> bool {
 }
 
 /// `PRESSURE-OVERCLOSURE=TIED`: glue, or springs in all directions if it has a stiffness. CalculiX takes that against sliding from the stick slope.
-fn tied(job: &mut Job, pair: &Pair, interaction: &Interaction, stiffness: Option<f64>) {
-    job.out.line("tied = true");
-    by_points(job, &pair.slave);
+fn tie(
+    job: &mut Job,
+    interface: &mut Interface,
+    pair: &Pair,
+    interaction: &Interaction,
+    stiffness: Option<f64>,
+) {
+    interface.tied = true;
+    if of_nodes(job.deck, &pair.slave) {
+        interface.discretisation = Some(by_points());
+    }
     // Springs act between the places that lie opposite at the start, however far they are stretched.
     if pair.small_sliding || stiffness.is_some() {
-        job.out.line("kinematics.small-sliding = {}");
+        interface.kinematics = small_sliding();
     }
     if pair.by_nodes {
         job.error(
@@ -348,11 +366,7 @@ fn tied(job: &mut Job, pair: &Pair, interaction: &Interaction, stiffness: Option
     }
     let Some(stiffness) = stiffness else { return };
     match interaction.friction.as_ref().and_then(|f| f.stick) {
-        Some(stick) => job.out.line(&format!(
-            "enforcement.penalty = {{ stiffness = {}, tangential-stiffness = {} }}",
-            toml::number(stiffness),
-            toml::number(stick)
-        )),
+        Some(stick) => interface.enforcement = penalty(Some(stiffness), stick),
         None => job.error(
             interaction.place,
             "an interaction that is TIED by a stiffness has none against sliding",
@@ -361,20 +375,33 @@ fn tied(job: &mut Job, pair: &Pair, interaction: &Interaction, stiffness: Option
     }
 }
 
+/// Springs of the deck's own.
+fn penalty(stiffness: Option<f64>, stick: f64) -> EnforcementModel {
+    EnforcementModel::Penalty(Penalty {
+        factor: None,
+        stiffness,
+        tangential_factor: None,
+        tangential_stiffness: Some(stick),
+    })
+}
+
 /// `ADJUST`: nodes of the slave surface that are moved onto the master.
-fn adjust(job: &mut Job, bodies: &Bodies, sets: &mut Sets, pair: &Pair) {
-    let Some(adjust) = &pair.adjust else { return };
-    job.out.line("initial = \"snap\"");
+fn adjust(
+    job: &mut Job,
+    bodies: &Bodies,
+    sets: &mut Sets,
+    interface: &mut Interface,
+    pair: &Pair,
+    adjust: &Adjust,
+) {
+    interface.initial = Start::Snap;
     match adjust {
-        Adjust::Within(distance) => job
-            .out
-            .line(&format!("initial-distance = {}", toml::number(*distance))),
+        Adjust::Within(distance) => interface.initial_distance = Some(*distance),
         Adjust::Set(name) => {
             // However far: nothing in the model is farther than this.
             let x = &bodies.mesh().points;
             let far = x.iter().flatten().fold(0.0, |m: f64, c| m.max(c.abs()));
-            job.out
-                .line(&format!("initial-distance = {}", toml::number(4.0 * far)));
+            interface.initial_distance = Some(4.0 * far);
             let nodes = job.nodes(&Target::Set(name.clone()));
             if !nodes.iter().any(|n| bodies.of_node.contains_key(n)) {
                 let message = format!("no node of the set {name} is part of a body");
@@ -385,8 +412,7 @@ fn adjust(job: &mut Job, bodies: &Bodies, sets: &mut Sets, pair: &Pair) {
                 );
                 return;
             }
-            let set = sets.points(bodies, &toml::name(name), &nodes);
-            job.out.line(&format!("initial-set = {}", toml::text(&set)));
+            interface.initial_set = Some(sets.points(bodies, &problem_name(name), &nodes));
         }
     }
 }
@@ -425,29 +451,16 @@ fn curved(job: &Job, pair: &Pair) -> bool {
     faces.iter().any(|(e, _)| solid(e) && nodes(e) >= 10)
 }
 
-/// The line of the normal law; `None` is the default, which is exact.
-fn normal(behavior: Option<&Behavior>, by_nodes: bool) -> Option<String> {
+/// The normal law; `None` is the one that is exact.
+fn normal(behavior: Option<&Behavior>, by_nodes: bool) -> Option<NormalModel> {
+    let tabular = |table| NormalModel::Tabular(normal::Tabular { table });
     match behavior? {
         Behavior::Hard | Behavior::Tied(_) => None,
         Behavior::Linear { slope, tension } if by_nodes && *tension > 0.0 => {
-            let rows: Vec<String> = smooth(*slope, *tension)
-                .iter()
-                .map(|r| toml::numbers(r))
-                .collect();
-            Some(format!(
-                "normal.tabular = {{ table = [{}] }}",
-                rows.join(", ")
-            ))
+            Some(tabular(smooth(*slope, *tension)))
         }
-        Behavior::Linear { slope, .. } => Some(format!(
-            "normal.linear = {{ c = {} }}",
-            toml::number(*slope)
-        )),
-        Behavior::Exponential { c0, p0 } => Some(format!(
-            "normal.exponential = {{ c0 = {}, p0 = {} }}",
-            toml::number(*c0),
-            toml::number(*p0)
-        )),
+        Behavior::Linear { slope: c, .. } => Some(NormalModel::Linear(Linear { c: *c })),
+        &Behavior::Exponential { c0, p0 } => Some(NormalModel::Exponential(Exponential { c0, p0 })),
         Behavior::Tabular(rows) => {
             // Pressure begins where the table last has none.
             let from = rows.iter().rposition(|r| r[1] <= 0.0).unwrap_or(0);
@@ -455,11 +468,7 @@ fn normal(behavior: Option<&Behavior>, by_nodes: bool) -> Option<String> {
             if rows[0][1] > 0.0 {
                 rows[0][1] = 0.0;
             }
-            let rows: Vec<String> = rows.iter().map(|r| toml::numbers(r)).collect();
-            Some(format!(
-                "normal.tabular = {{ table = [{}] }}",
-                rows.join(", ")
-            ))
+            Some(tabular(rows))
         }
     }
 }
@@ -479,7 +488,7 @@ fn smooth(slope: f64, tension: f64) -> Vec<[f64; 2]> {
 }
 
 /// Coefficients over pressure and slip rate, as a table of one row a pressure. The rows of the deck fill it, which its reader has seen to.
-fn coefficients(rows: &[[f64; 3]]) -> String {
+fn coefficients(rows: &[[f64; 3]]) -> friction::Tabular {
     let list = |k: usize| {
         let mut all: Vec<f64> = rows.iter().map(|r| r[k]).collect();
         all.sort_by(f64::total_cmp);
@@ -492,55 +501,48 @@ fn coefficients(rows: &[[f64; 3]]) -> String {
             .find(|r| r[1] == v && r[2] == p)
             .map_or(0.0, |r| r[0])
     };
-    let table: Vec<String> = pressures
-        .iter()
-        .map(|p| toml::numbers(&speeds.iter().map(|v| at(*p, *v)).collect::<Vec<_>>()))
-        .collect();
-    let mut keys = Vec::new();
-    for (key, list) in [("pressures", &pressures), ("speeds", &speeds)] {
-        if list.len() > 1 {
-            keys.push(format!("{key} = {}", toml::numbers(list)));
-        }
+    let row = |p: &f64| speeds.iter().map(|v| at(*p, *v)).collect();
+    let mu = pressures.iter().map(row).collect();
+    let several = |list: Vec<f64>| Some(list).filter(|l| l.len() > 1);
+    friction::Tabular {
+        mu,
+        pressures: several(pressures),
+        speeds: several(speeds),
     }
-    keys.push(format!("mu = [{}]", table.join(", ")));
-    format!("friction.tabular = {{ {} }}", keys.join(", "))
 }
 
-fn friction(f: &Friction) -> String {
+fn friction(f: &Friction) -> FrictionModel {
     if !f.table.is_empty() {
-        return coefficients(&f.table);
+        return FrictionModel::Tabular(coefficients(&f.table));
     }
-    let cap = match f.cap {
-        Some(cap) => format!(", cap = {}", toml::number(cap)),
-        None => String::new(),
-    };
+    let cap = f.cap;
     match (f.rough, f.decay) {
         // High enough for any face that is pressed at all.
-        (true, _) => "friction.coulomb = { mu = 1000.0 }".into(),
-        (_, Some([kinetic, decay])) => format!(
-            "friction.exponential-decay = {{ static = {}, kinetic = {}, decay = {}{cap} }}",
-            toml::number(f.mu),
-            toml::number(kinetic),
-            toml::number(decay)
-        ),
-        _ => format!("friction.coulomb = {{ mu = {}{cap} }}", toml::number(f.mu)),
+        (true, _) => FrictionModel::Coulomb(Coulomb {
+            mu: 1000.0,
+            cap: None,
+        }),
+        (_, Some([kinetic, decay])) => FrictionModel::ExponentialDecay(ExponentialDecay {
+            r#static: f.mu,
+            kinetic,
+            decay,
+            cap,
+        }),
+        _ => FrictionModel::Coulomb(Coulomb { mu: f.mu, cap }),
     }
 }
 
 /// The stiffness of sticking is taken where contact is a spring as well; hard contact is exact, and so is stick then.
-fn enforcement(job: &mut Job, interaction: &Interaction) {
-    let compliant = compliant(interaction);
-    match interaction.friction.as_ref().and_then(|f| f.stick) {
-        Some(stick) if compliant => job.out.line(&format!(
-            "enforcement.penalty = {{ tangential-stiffness = {} }}",
-            toml::number(stick)
-        )),
-        Some(_) => job.note(
+fn stick(job: &mut Job, interaction: &Interaction) -> Option<f64> {
+    let stick = interaction.friction.as_ref()?.stick?;
+    if !compliant(interaction) {
+        job.note(
             interaction.place,
             "the stick slope is left out: sticking is exact with hard contact",
-        ),
-        None => {}
+        );
+        return None;
     }
+    Some(stick)
 }
 
 /// The interaction of a name in each step, with the place of what changed it there.
@@ -650,31 +652,27 @@ fn change(
         .iter()
         .filter(|p| p.interaction == *name);
     for pair in pairs.collect::<Vec<_>>() {
-        let mut lines = Vec::new();
+        let mut change = Change::default();
         if before.friction != after.friction {
-            lines.extend(after.friction.as_ref().map(friction));
+            change.friction = after.friction.as_ref().map(friction);
         }
         if before.behavior != after.behavior {
-            let Some(line) = normal(after.behavior.as_ref(), pair.by_nodes) else {
+            change.normal = normal(after.behavior.as_ref(), pair.by_nodes);
+            if change.normal.is_none() {
                 job.error(
                     place,
                     "an interface cannot become hard in a later step",
                     "use LINEAR, EXPONENTIAL or TABULAR",
                 );
                 return;
-            };
-            lines.push(line);
+            }
         }
-        let interfaces = job
-            .pairs
-            .iter()
-            .filter(|(_, s, m)| *s == pair.slave && *m == pair.master);
-        let interfaces: Vec<String> = interfaces.map(|(n, ..)| n.clone()).collect();
-        for (i, line) in interfaces
-            .iter()
-            .flat_map(|i| lines.iter().map(move |l| (i, l)))
-        {
-            job.changes.push((step, i.clone(), line.clone()));
+        if change == Change::default() {
+            continue;
         }
+        let of_pair = |(_, s, m): &&(String, String, String)| *s == pair.slave && *m == pair.master;
+        let changed = job.pairs.iter().filter(of_pair);
+        let changed = changed.map(|(name, ..)| (name.clone(), change.clone()));
+        job.problem.step[step].change.extend(changed);
     }
 }

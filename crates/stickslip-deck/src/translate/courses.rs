@@ -1,7 +1,9 @@
 //! The course of what a step prescribes: growing, at once, or by an amplitude.
 
+use stickslip::problem::AmplitudeTable;
+
 use super::job::Job;
-use super::toml;
+use super::names::problem_name;
 use crate::card::Place;
 use crate::deck::{Deck, Procedure, Step};
 
@@ -75,14 +77,20 @@ pub(super) fn jump(
     if !jumps {
         return None;
     }
+    Some(at_once(job, user, place))
+}
+
+/// The course of what acts in full from the start: the name of its amplitude.
+pub(super) fn at_once(job: &mut Job, user: &str, place: Place) -> String {
     let end = job.spans.last().map_or(1.0, |[s, l]| s + l);
-    let name = job.fresh("amplitude", &toml::name(&format!("{user}-course")));
-    job.table("amplitude", &name, place);
-    job.out.line(&format!(
-        "table = [[0.0, 1.0], {}]",
-        toml::numbers(&[end, 1.0])
-    ));
-    Some(name)
+    let rows = vec![[0.0, 1.0], [end, 1.0]];
+    add(job, &format!("{user}-course"), place, rows)
+}
+
+fn add(job: &mut Job, wanted: &str, place: Place, table: Vec<[f64; 2]>) -> String {
+    let name = job.fresh::<AmplitudeTable>(&problem_name(wanted));
+    job.add(&name, place, AmplitudeTable { table });
+    name
 }
 
 /// An amplitude of the deck over the time of the analysis, as a table of its own for what acts in these steps. Its name. Where a step keeps what the
@@ -123,11 +131,7 @@ pub(super) fn amplitude(
         rows.push([rows[0][0].max(end) + 1.0, rows[0][1]]);
     }
     let place = a.place;
-    let name = job.fresh("amplitude", &toml::name(&format!("{name}-{user}")));
-    job.table("amplitude", &name, place);
-    let rows: Vec<String> = rows.iter().map(|r| toml::numbers(r)).collect();
-    job.out.line(&format!("table = [{}]", rows.join(", ")));
-    name
+    add(job, &format!("{name}-{user}"), place, rows)
 }
 
 /// The course of a load that ends at once with some steps, as a table of its own: what the steps before say, then nothing.
@@ -175,11 +179,8 @@ pub(super) fn ending(
         .steps
         .first()
         .map_or_else(Default::default, |s| s.place);
-    let name = job.fresh("amplitude", &toml::name(&format!("{user}-course")));
-    job.table("amplitude", &name, given.map_or(place, |a| a.place));
-    let rows: Vec<String> = rows.iter().map(|r| toml::numbers(r)).collect();
-    job.out.line(&format!("table = [{}]", rows.join(", ")));
-    name
+    let place = given.map_or(place, |a| a.place);
+    add(job, &format!("{user}-course"), place, rows)
 }
 
 /// Adds a row; one at the time of the last comes an instant later, as times increase; increments land once on the two.

@@ -5,12 +5,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use stickslip::model::ModalDamping;
+use stickslip::problem::{Harmonic, Probe};
 use stickslip::results::Quantity;
 
 use super::bodies::Bodies;
 use super::job::Job;
+use super::names::problem_name;
 use super::part::Part;
-use super::toml;
 use crate::deck::{Action, Deck, FieldsOf, Print, Procedure, Step};
 
 /// Displacements of more nodes than this are written as fields, not as columns of a table.
@@ -42,12 +44,12 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies) {
         }
     }
     for (node, name) in nodes(deck, bodies) {
-        let at = deck.nodes[&node];
         let body = &bodies.all[bodies.of_node[&node]];
-        job.table("probe", &name, body.place);
-        let at = toml::numbers(&at[..bodies.dim()]);
-        job.out.line(&format!("point = {at}"));
-        job.out.line(&format!("of = {}", toml::text(&body.name)));
+        let probe = Probe {
+            point: deck.nodes[&node][..bodies.dim()].to_vec(),
+            of: Some(body.name.clone()),
+        };
+        job.add(name, body.place, probe);
     }
 }
 
@@ -112,12 +114,12 @@ fn nodes(deck: &Deck, bodies: &Bodies) -> BTreeMap<u64, String> {
     if all.len() > COLUMNS {
         return BTreeMap::new();
     }
-    let named = |n: u64| (n, toml::name(&format!("node-{}", deck.label(n))));
+    let named = |n: u64| (n, problem_name(&format!("node-{}", deck.label(n))));
     all.into_iter().map(named).collect()
 }
 
-/// The line of a step that shakes.
-pub(super) fn line(job: &mut Job, index: usize) -> Option<String> {
+/// What shakes in a step, at which frequencies; nothing where no load does.
+pub(super) fn harmonic(job: &mut Job, index: usize) -> Option<Harmonic> {
     let step = &job.deck.steps[index];
     let Procedure::Harmonic {
         range,
@@ -133,47 +135,42 @@ pub(super) fn line(job: &mut Job, index: usize) -> Option<String> {
         let help =
             "loads of steps before do not shake: write *CLOAD, *DLOAD or *DSLOAD into this one";
         job.error(step.place, "no load shakes in this step", help);
-        return Some(String::new());
+        return None;
     }
-    let names: Vec<String> = shaking.iter().map(|(n, _)| n.clone()).collect();
-    let mut parts = vec![format!("loads = {}", toml::texts(&names))];
     let ahead = shaking.iter().filter(|(_, p)| *p == Part::Imaginary);
-    let ahead: Vec<String> = ahead
-        .map(|(n, _)| format!("{} = 90", toml::key(n)))
-        .collect();
-    if !ahead.is_empty() {
-        parts.push(format!("phases = {{ {} }}", ahead.join(", ")));
-    }
-    let [from, to] = range.map(toml::number);
-    parts.push(format!("from = {from}, to = {to}, points = {points}"));
-    parts.extend(bias.map(|b| format!("bias = {}", toml::number(b))));
-    parts.extend(damping(step));
-    if fields(job, step) {
-        parts.push("shapes = true".into());
-    }
-    Some(format!("harmonic = {{ {} }}", parts.join(", ")))
+    let [from, to] = range;
+    Some(Harmonic {
+        phases: ahead.map(|(n, _)| (n.clone(), 90.0)).collect(),
+        loads: shaking.into_iter().map(|(n, _)| n).collect(),
+        from,
+        to: Some(to),
+        points,
+        bias,
+        damping: damping(step),
+        shapes: fields(job, step),
+        ..Harmonic::default()
+    })
 }
 
-fn damping(step: &Step) -> Option<String> {
-    let mut parts = Vec::new();
+fn damping(step: &Step) -> Option<ModalDamping> {
     let mut ratios = step.damping.ratios.clone();
     if !ratios.is_empty() {
         // The last is that of all modes behind, and these have none.
         ratios.push(0.0);
-        parts.push(format!("ratios = {}", toml::numbers(&ratios)));
     }
-    for (key, value) in ["mass", "stiffness"].into_iter().zip(step.damping.rayleigh) {
-        if value != 0.0 {
-            parts.push(format!("{key} = {}", toml::number(value)));
-        }
-    }
-    (!parts.is_empty()).then(|| format!("damping = {{ {} }}", parts.join(", ")))
+    let [mass, stiffness] = step.damping.rayleigh;
+    let damping = ModalDamping {
+        ratios,
+        mass,
+        stiffness,
+    };
+    (damping != ModalDamping::default()).then_some(damping)
 }
 
 /// Whether displacements of all points are written: where the deck asks for them, or for none at nodes.
 fn fields(job: &Job, step: &Step) -> bool {
     let asked = step.filed.iter();
     let mut displacements = asked.filter(|f| f.of == FieldsOf::Nodes);
-    let probes = job.tables.iter().any(|t| t.starts_with("probe."));
-    !probes || displacements.any(|f| f.quantities.contains(&Quantity::Displacement))
+    job.problem.probe.is_empty()
+        || displacements.any(|f| f.quantities.contains(&Quantity::Displacement))
 }

@@ -1,10 +1,11 @@
 //! A translation under way: what has been written and said.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
+
+use stickslip::problem::{self, Increments, Problem, SpaceKind};
 
 use super::part::Part;
 use super::spans::duration;
-use super::toml::{self, Writer};
 use crate::card::Place;
 use crate::deck::{Deck, Target};
 use crate::finding::{DeckError, Finding, Severity};
@@ -12,21 +13,13 @@ use crate::finding::{DeckError, Finding, Severity};
 /// A translation under way.
 pub(super) struct Job<'a> {
     pub(super) deck: &'a Deck,
-    pub(super) out: Writer,
+    pub(super) problem: Problem,
     pub(super) errors: Vec<Finding>,
     pub(super) notes: Vec<Finding>,
     pub(super) places: Vec<(String, Place)>,
-    /// The tables there are, for their names.
-    pub(super) tables: BTreeSet<String>,
     pub(super) pairs: Vec<(String, String, String)>,
-    /// Names of tables that act in some steps only: kind (`supports`, `loads`, ...), name, by step.
-    pub(super) active: Vec<(&'static str, String, Vec<bool>)>,
-    /// Changes of laws: step, interface, key and value.
-    pub(super) changes: Vec<(usize, String, String)>,
-    /// Sliding that lasts: step and line.
-    pub(super) sliding: Vec<(usize, String)>,
-    /// What steps do with pretensions: step and line.
-    pub(super) tensions: Vec<(usize, String)>,
+    /// Tables that act in some steps only.
+    pub(super) active: Vec<Active>,
     /// Which loads are written.
     pub(super) part: Part,
     /// Loads that shake: name, part, by step.
@@ -39,6 +32,12 @@ pub(super) struct Job<'a> {
 
 impl<'a> Job<'a> {
     pub(super) fn new(deck: &'a Deck) -> Self {
+        let model = problem::Model {
+            space: SpaceKind::Solid,
+            thickness: None,
+        };
+        let mut problem = Problem::new(model);
+        problem.step = deck.steps.iter().map(|s| step(duration(s))).collect();
         let mut start = 0.0;
         let spans = deck.steps.iter().map(|s| {
             let length = duration(s);
@@ -47,16 +46,12 @@ impl<'a> Job<'a> {
         });
         Job {
             deck,
-            out: Writer::default(),
+            problem,
             errors: Vec::new(),
             notes: Vec::new(),
             places: Vec::new(),
-            tables: BTreeSet::new(),
             pairs: Vec::new(),
             active: Vec::new(),
-            changes: Vec::new(),
-            sliding: Vec::new(),
-            tensions: Vec::new(),
             part: Part::Lasting,
             shaking: Vec::new(),
             spans: spans.collect(),
@@ -116,13 +111,17 @@ impl<'a> Job<'a> {
         self.notes.push(finding);
     }
 
-    /// Opens a table of the problem that comes from a place of the deck.
-    pub(super) fn table(&mut self, kind: &str, name: &str, place: Place) {
-        let header = format!("{kind}.{}", toml::key(name));
-        self.out.line("");
-        self.out.line(&format!("[{header}]"));
-        self.tables.insert(format!("{kind}.{name}"));
-        self.places.push((format!("{kind}.{name}"), place));
+    /// Adds a table that comes from a place of the deck.
+    pub(super) fn add<T: Named>(&mut self, name: impl Into<String>, place: Place, table: T) {
+        let name = name.into();
+        self.places.push((format!("{}.{name}", T::KIND), place));
+        T::all(&mut self.problem).insert(name, table);
+    }
+
+    /// Says in which steps a table acts.
+    pub(super) fn acts<T: Listed>(&mut self, name: String, steps: Vec<bool>) {
+        let kind = T::KIND;
+        self.active.push(Active { kind, name, steps });
     }
 
     /// The nodes of a card.
@@ -134,12 +133,88 @@ impl<'a> Job<'a> {
     }
 
     /// A name that no other table of the kind has yet.
-    pub(super) fn fresh(&self, kind: &str, wanted: &str) -> String {
-        let taken = |name: &str| self.tables.contains(&format!("{kind}.{name}"));
-        if !taken(wanted) {
+    pub(super) fn fresh<T: Named>(&mut self, wanted: &str) -> String {
+        let all = T::all(&mut self.problem);
+        if !all.contains_key(wanted) {
             return wanted.to_string();
         }
         let more = (2..).map(|i| format!("{wanted}-{i}"));
-        more.into_iter().find(|n| !taken(n)).unwrap_or_default()
+        let mut free = more.filter(|name| !all.contains_key(name));
+        free.next().unwrap_or_default()
+    }
+}
+
+/// A kind of table of which a problem has any number, by name.
+pub(super) trait Named: Sized {
+    /// Its key in the problem.
+    const KIND: &'static str;
+
+    fn all(problem: &mut Problem) -> &mut BTreeMap<String, Self>;
+}
+
+macro_rules! named {
+    ($($table:ident $kind:ident),+) => {
+        $(impl Named for problem::$table {
+            const KIND: &'static str = stringify!($kind);
+
+            fn all(problem: &mut Problem) -> &mut BTreeMap<String, Self> {
+                &mut problem.$kind
+            }
+        })+
+    };
+}
+
+named!(
+    AmplitudeTable amplitude, Body body, Coupling coupling, Initial initial, Interface interface, Load load, Mass mass,
+    Material material, Pretension pretension, Probe probe, Reference reference, Support support, Temperature temperature
+);
+
+/// A kind of table of which a step can list those that act in it.
+pub(super) trait Listed: Named {
+    fn list(step: &mut problem::Step) -> &mut Option<Vec<String>>;
+}
+
+macro_rules! listed {
+    ($($table:ident $list:ident),+) => {
+        $(impl Listed for problem::$table {
+            fn list(step: &mut problem::Step) -> &mut Option<Vec<String>> {
+                &mut step.$list
+            }
+        })+
+    };
+}
+
+listed!(
+    Support supports, Load loads, Temperature temperatures, Interface interfaces, Coupling couplings
+);
+
+/// The steps in which a table acts.
+pub(super) struct Active {
+    /// [`Named::KIND`]
+    pub(super) kind: &'static str,
+    pub(super) name: String,
+    pub(super) steps: Vec<bool>,
+}
+
+/// A step in which nothing is said but how long it takes.
+fn step(duration: f64) -> problem::Step {
+    problem::Step {
+        name: None,
+        duration,
+        supports: None,
+        loads: None,
+        temperatures: None,
+        interfaces: None,
+        couplings: None,
+        pretension: BTreeMap::new(),
+        change: BTreeMap::new(),
+        cycles: None,
+        steady: None,
+        modes: None,
+        complex_modes: None,
+        harmonic: None,
+        increments: Increments::default(),
+        dynamic: None,
+        kick: None,
     }
 }

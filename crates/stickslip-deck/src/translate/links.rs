@@ -2,14 +2,17 @@
 
 use std::collections::BTreeSet;
 
+use stickslip::body::couplings::{self, AxialSpring, CouplingKind, Dashpot, Equation, Gap, Spring};
+use stickslip::problem::{Coupling, Mass};
+
 use super::bodies::Bodies;
 use super::job::Job;
+use super::names::problem_name;
 use super::sets::Sets;
-use super::{supports, toml};
+use super::supports::{self, COMPONENTS};
 use crate::axes;
 use crate::card::Place;
 use crate::deck::Action;
-use crate::numbering::Numbering;
 
 pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let ground = ground(job, bodies);
@@ -22,31 +25,32 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
 /// A term of an equation or a spring.
 pub(super) type Term = (u64, [f64; 6]);
 
-/// Terms as the problem writes them.
-fn terms(bodies: &Bodies, sets: &mut Sets, numbering: &Numbering, terms: &[Term]) -> String {
+/// Terms as the problem has them, without those of the ground.
+fn terms(
+    job: &Job,
+    bodies: &Bodies,
+    sets: &mut Sets,
+    ground: &BTreeSet<u64>,
+    terms: &[Term],
+) -> Vec<couplings::Term> {
     let mut out = Vec::new();
-    for (node, factors) in terms {
-        let label = toml::name(&format!("node-{}", numbering.label(*node)));
+    for (node, factors) in terms.iter().filter(|t| !ground.contains(&t.0)) {
+        let label = problem_name(&format!("node-{}", job.deck.label(*node)));
         let set = sets.points(bodies, &label, &[*node]);
-        let turned = bodies.references.get(node).map(String::as_str);
-        for (i, (c, f)) in toml::COMPONENTS.iter().zip(factors).enumerate() {
+        let turned = bodies.references.get(node).cloned().unwrap_or_default();
+        for (i, (component, factor)) in COMPONENTS.into_iter().zip(*factors).enumerate() {
             // What the plane does not have is not there.
             let there = i < bodies.dim() || i == 5 || i > 2 && bodies.dim() == 3;
-            if *f != 0.0 && there {
-                let set = if i < 3 {
-                    set.as_str()
-                } else {
-                    turned.unwrap_or("")
-                };
-                out.push(format!(
-                    "{{ set = {}, component = \"{c}\", factor = {} }}",
-                    toml::text(set),
-                    toml::number(*f)
-                ));
+            if factor != 0.0 && there {
+                out.push(couplings::Term {
+                    set: if i < 3 { set.clone() } else { turned.clone() },
+                    component,
+                    factor,
+                });
             }
         }
     }
-    format!("[{}]", out.join(", "))
+    out
 }
 
 /// Displacements along a direction, times a factor.
@@ -179,7 +183,7 @@ fn equations(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<
             );
             let steps = held(job, dependent.0, dependent.1);
             if steps.contains(&false) {
-                job.active.push(("couplings", name, steps));
+                job.acts::<Coupling>(name, steps);
             }
         }
     }
@@ -264,30 +268,17 @@ fn elongation(job: &mut Job, link: &Link, directions: &[usize]) -> Option<Vec<Te
     }
 }
 
-/// What a coupling is: its kind, and its keys beside the terms.
-struct Kind<'a> {
-    name: &'a str,
-    keys: &'a str,
+/// Adds a coupling; its name.
+pub(super) fn couple(job: &mut Job, wanted: &str, place: Place, kind: CouplingKind) -> String {
+    let name = job.fresh::<Coupling>(wanted);
+    let amplitude = None;
+    job.add(&name, place, Coupling { amplitude, kind });
+    name
 }
 
-/// A coupling between the nodes of an element: `kind = { terms, keys }`.
-fn couple(
-    job: &mut Job,
-    bodies: &Bodies,
-    sets: &mut Sets,
-    link: &Link,
-    ground: &BTreeSet<u64>,
-    mut list: Vec<Term>,
-    kind: Kind,
-) {
-    let Kind { name: what, keys } = kind;
-    list.retain(|t| !ground.contains(&t.0));
-    let label = job.deck.label(link.element);
-    let name = job.fresh("coupling", &toml::name(&format!("{what}-{label}")));
-    let terms = terms(bodies, sets, &job.deck.numbering, &list);
-    job.table("coupling", &name, link.place);
-    job.out
-        .line(&format!("{what} = {{ terms = {terms}, {keys} }}"));
+/// The name of the coupling that an element is.
+fn name_of(job: &Job, what: &str, link: &Link) -> String {
+    problem_name(&format!("{what}-{}", job.deck.label(link.element)))
 }
 
 /// It is an error if an element is not of a kind that its card is for.
@@ -313,11 +304,9 @@ pub(super) fn equation(
     place: Place,
     list: &[Term],
 ) -> String {
-    let name = job.fresh("coupling", name);
-    let terms = terms(bodies, sets, &job.deck.numbering, list);
-    job.table("coupling", &name, place);
-    job.out.line(&format!("equation = {{ terms = {terms} }}"));
-    name
+    let terms = terms(job, bodies, sets, &BTreeSet::new(), list);
+    let equation = Equation { terms, value: 0.0 };
+    couple(job, name, place, CouplingKind::Equation(equation))
 }
 
 fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u64>) {
@@ -328,31 +317,26 @@ fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u6
             if !is_of(job, &link, &kinds, "*SPRING", s.place) {
                 continue;
             }
-            let stiffness = format!("stiffness = {}", toml::number(s.stiffness));
+            let stiffness = s.stiffness;
             let both = link.nodes.iter().all(|n| !ground.contains(n));
-            if link.kind == "SPRINGA" && both {
-                let label = |n: u64| toml::name(&format!("node-{}", deck.label(n)));
-                let [a, b] = [0, 1].map(|k| {
+            let kind = if link.kind == "SPRINGA" && both {
+                let label = |n: u64| problem_name(&format!("node-{}", deck.label(n)));
+                let [from, to] = [0, 1].map(|k| {
                     let node = link.nodes[k];
                     sets.points(bodies, &label(node), &[node])
                 });
-                let name = job.fresh(
-                    "coupling",
-                    &toml::name(&format!("spring-{}", deck.label(link.element))),
-                );
-                job.table("coupling", &name, link.place);
-                job.out.line(&format!(
-                    "axial-spring = {{ from = {}, to = {}, {stiffness} }}",
-                    toml::text(&a),
-                    toml::text(&b)
-                ));
+                CouplingKind::AxialSpring(AxialSpring {
+                    from,
+                    to,
+                    stiffness,
+                })
             } else if let Some(list) = elongation(job, &link, &s.directions) {
-                let kind = Kind {
-                    name: "spring",
-                    keys: &stiffness,
-                };
-                couple(job, bodies, sets, &link, ground, list, kind);
-            }
+                let terms = terms(job, bodies, sets, ground, &list);
+                CouplingKind::Spring(Spring { terms, stiffness })
+            } else {
+                continue;
+            };
+            couple(job, &name_of(job, "spring", &link), link.place, kind);
         }
     }
     for s in &deck.connectors.dashpots {
@@ -362,12 +346,10 @@ fn springs(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u6
                 continue;
             }
             if let Some(list) = elongation(job, &link, &s.directions) {
-                let coefficient = format!("coefficient = {}", toml::number(s.stiffness));
-                let kind = Kind {
-                    name: "dashpot",
-                    keys: &coefficient,
-                };
-                couple(job, bodies, sets, &link, ground, list, kind);
+                let terms = terms(job, bodies, sets, ground, &list);
+                let coefficient = s.stiffness;
+                let kind = CouplingKind::Dashpot(Dashpot { terms, coefficient });
+                couple(job, &name_of(job, "dashpot", &link), link.place, kind);
             }
         }
     }
@@ -397,15 +379,12 @@ fn gaps(job: &mut Job, bodies: &Bodies, sets: &mut Sets, ground: &BTreeSet<u64>)
                 );
                 continue;
             }
-            let mut more = format!("clearance = {}", toml::number(g.clearance));
-            if let Some(k) = g.stiffness {
-                more += &format!(", stiffness = {}", toml::number(k));
-            }
-            let kind = Kind {
-                name: "gap",
-                keys: &more,
-            };
-            couple(job, bodies, sets, &link, ground, list, kind);
+            let kind = CouplingKind::Gap(Gap {
+                terms: terms(job, bodies, sets, ground, &list),
+                clearance: g.clearance,
+                stiffness: g.stiffness,
+            });
+            couple(job, &name_of(job, "gap", &link), link.place, kind);
         }
     }
 }
@@ -427,11 +406,10 @@ fn masses(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             groups.push(of_bodies);
         }
         for nodes in groups {
-            let name = job.fresh("mass", &toml::name(set));
-            let set = sets.points(bodies, &toml::name(&format!("{set}-nodes")), &nodes);
-            job.table("mass", &name, *place);
-            job.out.line(&format!("set = {}", toml::text(&set)));
-            job.out.line(&format!("mass = {}", toml::number(*mass)));
+            let name = job.fresh::<Mass>(&problem_name(set));
+            let set = sets.points(bodies, &problem_name(&format!("{set}-nodes")), &nodes);
+            let mass = *mass;
+            job.add(name, *place, Mass { set, mass });
         }
     }
 }

@@ -2,15 +2,17 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use stickslip::body::loads::{LoadKind, Moment, NodalForce, Pressure};
 use stickslip::mesh::FacetRef;
+use stickslip::problem::{Initial, Load};
 
-use super::acting::{Acting, Given, When, collect, label, open, two_courses};
+use super::acting::{Acting, Given, When, add_load, collect, label, two_courses};
 use super::bodies::Bodies;
 use super::job::Job;
+use super::names::problem_name;
 use super::part::Part;
 use super::sets::Sets;
 use super::supports::turned;
-use super::toml;
 use crate::axes;
 use crate::card::Place;
 use crate::deck::{Action, Distributed, SurfaceParts};
@@ -135,11 +137,10 @@ fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let mut ordered: Vec<_> = groups.into_iter().collect();
     ordered.sort_by_key(|(_, (_, place, _))| *place);
     for ((when, force, _), (nodes, place, label)) in ordered {
-        let set = sets.points(bodies, &toml::name(&label), &nodes);
-        open(job, &format!("force-{label}"), &set, place, &when);
-        let value = toml::numbers(&force.map(f64::from_bits)[..bodies.dim()]);
-        job.out
-            .line(&format!("nodal-force = {{ value = {value} }}"));
+        let set = sets.points(bodies, &problem_name(&label), &nodes);
+        let value = force.map(f64::from_bits)[..bodies.dim()].to_vec();
+        let kind = LoadKind::NodalForce(NodalForce { value });
+        add_load(job, &format!("force-{label}"), set, place, &when, kind);
     }
 }
 
@@ -171,15 +172,11 @@ fn moments(job: &mut Job, bodies: &Bodies, all: Vec<((u64, usize), Acting<f64>)>
         let mut value = [0.0; 3];
         value[component - 3] = a.what;
         let value = if plane { &value[2..] } else { &value[..] };
-        open(
-            job,
-            &format!("moment-{}", a.label),
-            &name,
-            a.place,
-            &a.when(),
-        );
-        job.out
-            .line(&format!("moment = {{ value = {} }}", toml::numbers(value)));
+        let kind = LoadKind::Moment(Moment {
+            value: value.to_vec(),
+        });
+        let wanted = format!("moment-{}", a.label);
+        add_load(job, &wanted, name, a.place, &a.when(), kind);
     }
 }
 
@@ -307,12 +304,10 @@ fn pressures(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let mut ordered: Vec<_> = groups.into_iter().collect();
     ordered.sort_by_key(|(_, (_, place, _))| *place);
     for ((when, value), (faces, place, label)) in ordered {
-        for (_, set) in sets.facets(bodies, &toml::name(&job.fresh("load", &label)), &faces) {
-            open(job, &label, &set, place, &when);
-            job.out.line(&format!(
-                "pressure = {{ value = {} }}",
-                toml::number(f64::from_bits(value))
-            ));
+        for (_, set) in sets.facets(bodies, &problem_name(&job.fresh::<Load>(&label)), &faces) {
+            let value = f64::from_bits(value);
+            let kind = LoadKind::Pressure(Pressure { value });
+            add_load(job, &label, set, place, &when, kind);
         }
     }
 }
@@ -342,14 +337,19 @@ fn initial(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         }
     }
     for ((velocity, value), (nodes, place, label)) in groups {
-        let set = sets.points(bodies, &toml::name(&label), &nodes);
-        let name = job.fresh("initial", &toml::name(&label));
-        job.table("initial", &name, place);
-        job.out.line(&format!("set = {}", toml::text(&set)));
-        let key = if velocity { "velocity" } else { "displacement" };
-        job.out.line(&format!(
-            "{key} = {}",
-            toml::numbers(&value.map(f64::from_bits)[..bodies.dim()])
-        ));
+        let set = sets.points(bodies, &problem_name(&label), &nodes);
+        let name = job.fresh::<Initial>(&problem_name(&label));
+        let value = value.map(f64::from_bits)[..bodies.dim()].to_vec();
+        let (velocity, displacement) = match velocity {
+            true => (Some(value), None),
+            false => (None, Some(value)),
+        };
+        let start = Initial {
+            set,
+            velocity,
+            displacement,
+            ..Initial::default()
+        };
+        job.add(name, place, start);
     }
 }

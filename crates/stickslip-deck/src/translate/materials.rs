@@ -2,9 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use stickslip::material::{self, Anisotropic, Entries, ExpansionTable, Isotropic, Orthotropic};
+use stickslip::math::Vec3;
+use stickslip::problem::{self, ConstantsAt};
+
 use super::bodies::{Bodies, Turned};
 use super::job::Job;
-use super::toml;
+use super::names::problem_name;
 use crate::deck::{Action, Deck, Elastic, Expansion, Local, Material, Section};
 
 /// Unit vectors along the local axes.
@@ -48,8 +52,8 @@ pub(super) fn assign(
         let orientation = section.orientation.as_ref().filter(|_| directed);
         let axes = orientation.and_then(|_| axes_of(deck, *element, section));
         let wanted = match orientation {
-            Some(o) => toml::name(&format!("{}-{o}", section.material)),
-            None => toml::name(&section.material),
+            Some(o) => problem_name(&format!("{}-{o}", section.material)),
+            None => problem_name(&section.material),
         };
         if let Some(o) = orientation.and_then(|o| deck.properties.orientations.get(o)) {
             let round = matches!(
@@ -103,68 +107,70 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies) {
             continue;
         }
         let axes = axes.as_ref();
-        let Some((rows, density)) = constants(job, bodies, material, &section.material) else {
+        let Some(constants) = constants(job, bodies, material, &section.material) else {
             continue;
         };
-        job.table("material", name, material.place);
-        if let [(first, elastic), rest @ ..] = rows.as_slice() {
-            job.out.line(&written(elastic, density, axes));
-            if !rest.is_empty() {
-                let at = |(t, e): &(f64, Elastic)| {
-                    let (t, e) = (toml::number(*t), written(e, None, axes));
-                    format!("{{ temperature = {t}, {e} }}")
-                };
-                let rest: Vec<String> = rest.iter().map(at).collect();
-                job.out
-                    .line(&format!("temperature = {}", toml::number(*first)));
-                job.out.line(&format!("at = [{}]", rest.join(", ")));
-            }
+        let mut rows = constants.elastic.into_iter();
+        let Some((first, elastic)) = rows.next() else {
+            continue;
+        };
+        let at: Vec<ConstantsAt> = rows
+            .map(|(temperature, e)| ConstantsAt {
+                temperature,
+                kind: constants_along(&e, None, axes),
+            })
+            .collect();
+        let table = problem::Material {
+            expansion: material.expansion.as_ref().map(|e| e.along(axes)),
+            temperature: (!at.is_empty()).then_some(first),
+            at,
+            kind: constants_along(&elastic, constants.density, axes),
+        };
+        job.add(name, material.place, table);
+    }
+}
+
+/// Elastic constants in the axes of an orientation.
+fn constants_along(
+    elastic: &Elastic,
+    density: Option<f64>,
+    axes: Option<&Axes>,
+) -> material::Material {
+    let density = density.unwrap_or_default();
+    match *elastic {
+        Elastic::Isotropic([young, poisson]) => material::Material::Isotropic(Isotropic {
+            young,
+            poisson,
+            density,
+        }),
+        Elastic::Engineering([e1, e2, e3, nu12, nu13, nu23, g12, g13, g23]) => {
+            material::Material::Orthotropic(Orthotropic {
+                e1,
+                e2,
+                e3,
+                nu12,
+                nu13,
+                nu23,
+                g12,
+                g13,
+                g23,
+                density,
+                axes: axes.map(directions),
+            })
         }
-        if let Some(expansion) = &material.expansion {
-            job.out.line(&expansion.written(axes));
+        Elastic::Full(ref c) => {
+            let rows = turned(c, axes).iter().map(|row| row.to_vec()).collect();
+            material::Material::Anisotropic(Anisotropic {
+                stiffness: Entries::Rows(rows),
+                density,
+            })
         }
     }
 }
 
-/// The line of elastic constants in the axes of an orientation.
-fn written(elastic: &Elastic, density: Option<f64>, axes: Option<&Axes>) -> String {
-    let density = match density {
-        Some(d) => format!(", density = {}", toml::number(d)),
-        None => String::new(),
-    };
-    match elastic {
-        Elastic::Isotropic([young, poisson]) => format!(
-            "isotropic = {{ young = {}, poisson = {}{density} }}",
-            toml::number(*young),
-            toml::number(*poisson)
-        ),
-        Elastic::Engineering(v) => {
-            let names = [
-                "e1", "e2", "e3", "nu12", "nu13", "nu23", "g12", "g13", "g23",
-            ];
-            let mut parts: Vec<String> = names
-                .iter()
-                .zip(v)
-                .map(|(n, x)| format!("{n} = {}", toml::number(*x)))
-                .collect();
-            parts.extend(axes.map(directions));
-            format!("orthotropic = {{ {}{density} }}", parts.join(", "))
-        }
-        Elastic::Full(c) => {
-            let c = turned(c, axes);
-            let rows: Vec<String> = c.iter().map(|row| toml::numbers(row)).collect();
-            format!(
-                "anisotropic = {{ stiffness = [{}]{density} }}",
-                rows.join(", ")
-            )
-        }
-    }
-}
-
-/// The key of the axes of an orientation.
-fn directions(axes: &Axes) -> String {
-    let [first, second] = [axes[0], axes[1]].map(|a| toml::numbers(&a));
-    format!("axes = [{first}, {second}]")
+/// The axes of an orientation that a problem names.
+fn directions(axes: &Axes) -> [Vec3; 2] {
+    [axes[0], axes[1]]
 }
 
 impl Expansion {
@@ -173,36 +179,40 @@ impl Expansion {
         self.rows.iter().any(|(_, along)| along.len() > 1)
     }
 
-    /// Its line in the axes of an orientation.
-    fn written(&self, axes: Option<&Axes>) -> String {
+    /// Expansion in the axes of an orientation.
+    fn along(&self, axes: Option<&Axes>) -> material::Expansion {
         let axes = axes.filter(|_| self.has_axes());
         if let ([(_, along)], None) = (self.rows.as_slice(), axes) {
-            return match along.as_slice() {
-                [a] => format!("expansion = {}", toml::number(*a)),
-                along => format!("expansion = {}", toml::numbers(along)),
-            };
+            match *along.as_slice() {
+                [a] => return material::Expansion::Number(a),
+                [a, b, c] => return material::Expansion::Axes([a, b, c]),
+                _ => {}
+            }
         }
-        let row = |(t, along): &(f64, Vec<f64>)| toml::numbers(&[&[*t], along.as_slice()].concat());
-        let rows: Vec<String> = self.rows.iter().map(row).collect();
-        let mut parts = vec![format!("table = [{}]", rows.join(", "))];
-        parts.push(format!("zero = {}", toml::number(self.zero)));
-        parts.extend(axes.map(directions));
-        format!("expansion = {{ {} }}", parts.join(", "))
+        let row = |(t, along): &(f64, Vec<f64>)| [&[*t], along.as_slice()].concat();
+        material::Expansion::Table(ExpansionTable {
+            table: self.rows.iter().map(row).collect(),
+            zero: self.zero,
+            axes: axes.map(directions),
+        })
     }
+}
+
+/// What a material has of the deck's tables over temperature.
+struct Constants {
+    /// By temperature, in ascending order.
+    elastic: Vec<(f64, Elastic)>,
+    density: Option<f64>,
 }
 
 /// Elastic constants by temperature, and density. Where its elements have one temperature throughout, a material has the constants of that; elastic
 /// ones that are left are those of the temperatures of its cells.
-#[allow(clippy::type_complexity)]
-fn constants(
-    job: &mut Job,
-    bodies: &Bodies,
-    material: &Material,
-    name: &str,
-) -> Option<(Vec<(f64, Elastic)>, Option<f64>)> {
-    let first = material.elastic_at.iter().take(1).cloned().collect();
+fn constants(job: &mut Job, bodies: &Bodies, material: &Material, name: &str) -> Option<Constants> {
     if material.elastic_at.len() < 2 && material.density_at.len() < 2 {
-        return Some((first, material.density));
+        return Some(Constants {
+            elastic: material.elastic_at.iter().take(1).cloned().collect(),
+            density: material.density,
+        });
     }
     let deck = job.deck;
     let at = super::temperatures::at_start(job);
@@ -229,10 +239,16 @@ fn constants(
     }
     let density = between(&material.density_at, low, |a, b, w| a + w * (b - a));
     if high > low || deck.steps.iter().any(changes) {
-        return Some((material.elastic_at.clone(), density));
+        return Some(Constants {
+            elastic: material.elastic_at.clone(),
+            density,
+        });
     }
     let elastic = between(&material.elastic_at, low, |a, b, w| a.mix(b, w));
-    Some((elastic.map(|e| (low, e)).into_iter().collect(), density))
+    Some(Constants {
+        elastic: elastic.map(|e| (low, e)).into_iter().collect(),
+        density,
+    })
 }
 
 /// Linear between the rows of a table over temperature, constant outside.

@@ -13,6 +13,7 @@ mod loads;
 mod materials;
 mod measure;
 mod multi_point;
+mod names;
 mod part;
 mod pretensions;
 mod references;
@@ -22,7 +23,6 @@ mod spans;
 mod steps;
 mod supports;
 mod temperatures;
-mod toml;
 mod translation;
 mod volumes;
 
@@ -35,10 +35,12 @@ use std::sync::Arc;
 use stickslip::mesh::Mesh;
 
 use crate::axes;
+use crate::card::Place;
 use crate::deck::{Deck, Print, SurfaceParts};
 use crate::finding::DeckError;
 use bodies::Bodies;
 use job::Job;
+use names::problem_name;
 use sets::Sets;
 
 impl Deck {
@@ -57,16 +59,8 @@ impl Deck {
         references::find(&mut job, &mut bodies);
         let bodies = bodies;
         let mut sets = Sets::new(self, &bodies);
-        job.out.line("format = 1");
-        if let Some(title) = self
-            .output
-            .title
-            .as_deref()
-            .filter(|t| !t.trim().is_empty())
-        {
-            job.out
-                .line(&format!("title = {}", toml::text(title.trim())));
-        }
+        let title = self.output.title.as_deref().map(str::trim);
+        job.problem.title = title.filter(|t| !t.is_empty()).map(str::to_string);
         body_tables::write(&mut job, &bodies, &mut sets, &mesh_name);
         materials::write(&mut job, &bodies);
         references::write(&mut job, &bodies, &mut sets);
@@ -83,10 +77,18 @@ impl Deck {
         steps::write(&mut job);
         unprinted(&mut job, &bodies);
         modal_output(&mut job);
-        job.out.tables(sets.tables());
+        job.problem.set = sets.unions();
         if !job.errors.is_empty() {
             return Err(job.failed());
         }
+        let toml = match job.problem.to_brief_toml() {
+            Ok(text) => text,
+            Err(e) => {
+                let findings = e.findings.iter();
+                findings.for_each(|f| job.error(Place::default(), f.message.clone(), ""));
+                return Err(job.failed());
+            }
+        };
         let mesh = Arc::new(sets.into_mesh(&bodies));
         let mut notes = self.notes.clone();
         notes.append(&mut job.notes);
@@ -114,7 +116,7 @@ impl Deck {
             },
             elements: self.elements.iter().map(|(n, e)| (*n, e.place)).collect(),
             lint: lint::findings(self, &bodies),
-            toml: job.out.finish(),
+            toml,
             mesh_name,
             mesh,
             notes,
@@ -129,23 +131,21 @@ impl Deck {
 /// Limits of the gate that do not hold where the deck gives springs of its own, and those that the deck asks for.
 fn quality(job: &mut Job) {
     let (stick, soft) = (deck_has_stick(job.deck), contact::ties_by_springs(job.deck));
-    let mut lines = Vec::new();
+    let limits = &mut job.problem.quality;
     if stick || soft {
         // The slip and the stretch of springs that the deck gives are no errors of the solution.
-        lines.push("false-slip = 1e300");
+        limits.false_slip = NO_LIMIT;
     }
     if soft {
-        lines.push("penetration-to-approach = 1e300");
+        limits.penetration_to_approach = NO_LIMIT;
     }
     if job.strains {
-        lines.push("strain = 0.05");
+        limits.strain = Some(0.05);
     }
-    if !lines.is_empty() {
-        job.out.line("");
-        job.out.line("[quality]");
-    }
-    lines.into_iter().for_each(|line| job.out.line(line));
 }
+
+/// A limit that nothing reaches.
+const NO_LIMIT: f64 = 1e300;
 
 /// What steps that look for modes ask to be printed and written: modes have files of their own.
 fn modal_output(job: &mut Job) {
@@ -260,23 +260,23 @@ pub fn read_mesh(path: &Path) -> Result<Mesh, DeckError> {
     };
     let mut sets = Sets::new(&deck, &bodies);
     for (name, nodes) in &deck.node_sets {
-        sets.keep_points(&bodies, &toml::name(name), nodes);
+        sets.keep_points(&bodies, &problem_name(name), nodes);
     }
     for (name, elements) in &deck.element_sets {
-        sets.keep_cells(&bodies, &toml::name(name), elements);
+        sets.keep_cells(&bodies, &problem_name(name), elements);
     }
     for (name, elements) in &deck.element_sets {
         // What bounds cells in a file of Gmsh is what its user has named.
         let faces = SurfaceParts::Faces(elements.iter().map(|e| (*e, Some(0))).collect());
         let by = bodies.faces(&faces);
         if by.values().any(|list| !list.is_empty()) {
-            sets.keep_facets(&toml::name(name), &by);
+            sets.keep_facets(&problem_name(name), &by);
         }
     }
     for (name, surface) in &deck.surfaces {
         match &surface.parts {
-            SurfaceParts::Nodes(nodes) => sets.keep_points(&bodies, &toml::name(name), nodes),
-            faces => sets.keep_facets(&toml::name(name), &bodies.faces(faces)),
+            SurfaceParts::Nodes(nodes) => sets.keep_points(&bodies, &problem_name(name), nodes),
+            faces => sets.keep_facets(&problem_name(name), &bodies.faces(faces)),
         }
     }
     Ok(sets.into_mesh(&bodies))

@@ -7,9 +7,9 @@ use stickslip::math::{Vec3, cross, dot, norm, normalize, scale, sub};
 use super::bodies::Bodies;
 use super::job::Job;
 use super::links::{Term, equation};
-use super::references::tie;
+use super::names::problem_name;
+use super::references::follow;
 use super::sets::Sets;
-use super::toml;
 use crate::deck::MultiPoint;
 
 pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
@@ -75,10 +75,10 @@ fn beam(job: &mut Job, bodies: &Bodies, sets: &mut Sets, c: &MultiPoint) -> Done
     if bodies.refers(end) {
         return Err("both nodes are without a body".into());
     }
-    let label = toml::name(&format!("node-{}", job.deck.label(end)));
+    let label = problem_name(&format!("node-{}", job.deck.label(end)));
     let set = sets.points(bodies, &label, &[end]);
     let reference = bodies.references[&start].clone();
-    tie(job, "mpc-beam", &set, &reference, c.place, "");
+    follow(job, "mpc-beam", c.place, set, &reference);
     Ok(())
 }
 

@@ -2,10 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use stickslip::problem::{self, FacetSection, Section, Tension};
+
 use super::bodies::Bodies;
 use super::job::Job;
+use super::names::problem_name;
 use super::sets::Sets;
-use super::{courses, loads, supports, toml};
+use super::{courses, loads, supports};
 use crate::deck::{Pretension, SurfaceParts};
 
 /// Writes the pretensions; their names by node.
@@ -16,14 +19,13 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) -> BTreeMap
         let Some(set) = section(job, bodies, sets, p) else {
             continue;
         };
-        let name = job.fresh("pretension", &toml::name(&p.surface));
-        job.table("pretension", &name, p.place);
-        let normal = match p.normal {
-            Some(n) => format!(", normal = {}", toml::numbers(&n[..bodies.dim()])),
-            None => String::new(),
+        let name = job.fresh::<problem::Pretension>(&problem_name(&p.surface));
+        let normal = p.normal.map(|n| n[..bodies.dim()].to_vec());
+        let cut = problem::Pretension {
+            of: None,
+            section: Section::Facets(FacetSection { set, normal }),
         };
-        let line = format!("facets = {{ set = {}{normal} }}", toml::text(&set));
-        job.out.line(&line);
+        job.add(&name, p.place, cut);
         names.insert(p.node, name);
     }
     let forces = loads::forces_by_step(job).unwrap_or_default();
@@ -64,7 +66,7 @@ fn section(job: &mut Job, bodies: &Bodies, sets: &mut Sets, p: &Pretension) -> O
         );
         return None;
     }
-    let wanted = toml::name(&p.surface);
+    let wanted = problem_name(&p.surface);
     sets.facets(bodies, &wanted, &faces)
         .pop()
         .map(|(_, set)| set)
@@ -73,15 +75,17 @@ fn section(job: &mut Job, bodies: &Bodies, sets: &mut Sets, p: &Pretension) -> O
 /// What the steps do with a pretension: what `*BOUNDARY` prescribes, or else the force.
 fn steps(job: &mut Job, node: u64, name: &str, forces: &[loads::Forces], held: &[supports::State]) {
     across(job, node, forces, held);
-    let key = toml::key(name);
     // A course is one table for all steps in which it is followed.
     let mut tables: BTreeMap<(bool, String), String> = BTreeMap::new();
     for (i, state) in held.iter().enumerate() {
         let force = forces.get(i).and_then(|f| f.get(&(node, 0)));
         let (what, value, amplitude, given, place) = match (state.get(&(node, 0)), force) {
             (Some(v), _) if v.fixed => {
-                let line = format!("pretension.{key} = {{ hold = true }}");
-                job.tensions.push((i, line));
+                let hold = Tension {
+                    hold: true,
+                    ..Tension::default()
+                };
+                job.problem.step[i].pretension.insert(name.into(), hold);
                 continue;
             }
             (Some(v), _) => ("shortening", v.value, &v.amplitude, v.step == i, v.place),
@@ -103,7 +107,7 @@ fn steps(job: &mut Job, node: u64, name: &str, forces: &[loads::Forces], held: &
         let course = amplitude.as_ref().map(|a| {
             let own = what == "force";
             let known = tables.entry((own, a.clone()));
-            let table = known.or_insert_with(|| {
+            let course = known.or_insert_with(|| {
                 let follows = |k: usize| match own {
                     true => {
                         let f = forces.get(k).and_then(|f| f.get(&(node, 0)));
@@ -119,14 +123,16 @@ fn steps(job: &mut Job, node: u64, name: &str, forces: &[loads::Forces], held: &
                 let kept: Vec<bool> = kept.collect();
                 courses::amplitude(job, a, &active, &kept, name)
             });
-            format!(", amplitude = {}", toml::text(table))
+            course.clone()
         });
-        let line = format!(
-            "pretension.{key} = {{ {what} = {}{} }}",
-            toml::number(value),
-            course.unwrap_or_default()
-        );
-        job.tensions.push((i, line));
+        let drawn = what == "force";
+        let tension = Tension {
+            force: drawn.then_some(value),
+            shortening: (!drawn).then_some(value),
+            hold: false,
+            amplitude: course,
+        };
+        job.problem.step[i].pretension.insert(name.into(), tension);
     }
 }
 

@@ -2,12 +2,17 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use stickslip::body::couplings::{CouplingKind, Distributing, Kinematic, SetWeight, Weights};
 use stickslip::math::{add, norm, scale, sub};
+
+use stickslip::problem::Reference;
 
 use super::bodies::Bodies;
 use super::job::Job;
+use super::links::{self, couple};
+use super::names::problem_name;
 use super::sets::Sets;
-use super::{links, supports, toml};
+use super::supports::{self, COMPONENTS};
 use crate::card::Place;
 use crate::deck::{Action, Deck, NodeCoupling, SurfaceParts, Tied, Way};
 
@@ -35,7 +40,7 @@ pub(super) fn find(job: &mut Job, bodies: &mut Bodies) {
     let loose = loose(job, bodies);
     nodes.extend(loose.difference(&ground));
     for n in nodes {
-        let wanted = toml::name(&format!("node-{}", deck.label(n)));
+        let wanted = problem_name(&format!("node-{}", deck.label(n)));
         let taken = |name: &str| bodies.all.iter().any(|b| b.name == name);
         let mut name = wanted.clone();
         while taken(&name) || bodies.references.values().any(|v| *v == name) {
@@ -108,13 +113,16 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         let place = (deck.connectors.couplings.iter())
             .find(|c| c.reference == *node)
             .map_or(Place::default(), |c| c.place);
-        job.table("reference", name, place);
-        let x = &deck.nodes[node][..bodies.dim()];
-        job.out.line(&format!("point = {}", toml::numbers(x)));
+        let point = Reference {
+            point: deck.nodes[node][..bodies.dim()].to_vec(),
+            mass: None,
+            inertia: None,
+        };
+        job.add(name, place, point);
         // A node of a body that others refer to.
         if bodies.of_node.contains_key(node) {
             let set = sets.points(bodies, &format!("{name}-point"), &[*node]);
-            tie(job, &format!("{name}-point"), &set, name, place, "");
+            follow(job, &format!("{name}-point"), place, set, name);
         }
     }
     for (index, nodes) in &bodies.rigid_nodes {
@@ -123,31 +131,25 @@ pub(super) fn write(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
             continue;
         };
         let label = rigid.nodes.clone().unwrap_or_else(|| "RIGID".into());
-        let set = sets.points(bodies, &toml::name(&label), nodes);
-        let name = format!("rigid-{}", toml::name(&label));
-        tie(
-            job,
-            &name,
-            &set,
-            &bodies.references[&reference],
-            rigid.place,
-            "",
-        );
+        let set = sets.points(bodies, &problem_name(&label), nodes);
+        let name = format!("rigid-{}", problem_name(&label));
+        let reference = &bodies.references[&reference];
+        follow(job, &name, rigid.place, set, reference);
     }
     for coupling in &deck.connectors.couplings {
         coupled(job, bodies, sets, coupling);
     }
 }
 
-/// A kinematic coupling.
-pub(super) fn tie(job: &mut Job, name: &str, set: &str, reference: &str, place: Place, more: &str) {
-    let name = job.fresh("coupling", name);
-    job.table("coupling", &name, place);
-    job.out.line(&format!(
-        "kinematic = {{ set = {}, reference = {}{more} }}",
-        toml::text(set),
-        toml::text(reference)
-    ));
+/// A coupling by which points follow a reference point.
+pub(super) fn follow(job: &mut Job, name: &str, place: Place, set: String, reference: &str) {
+    let reference = reference.into();
+    let all = Kinematic {
+        set,
+        reference,
+        components: None,
+    };
+    couple(job, name, place, CouplingKind::Kinematic(all));
 }
 
 fn coupled(job: &mut Job, bodies: &Bodies, sets: &mut Sets, coupling: &NodeCoupling) {
@@ -166,21 +168,20 @@ fn coupled(job: &mut Job, bodies: &Bodies, sets: &mut Sets, coupling: &NodeCoupl
         );
         return;
     };
-    let point = bodies.references[reference].clone();
-    let label = toml::name(name);
+    let reference = bodies.references[reference].clone();
+    let label = problem_name(name);
     let Some((set, weights)) = tied(job, bodies, sets, coupling) else {
         return;
     };
     if way == Way::Distributing {
         refuse_left_out(job, coupling);
         warn_of_arm(job, bodies, coupling);
-        let name = job.fresh("coupling", &label);
-        job.table("coupling", &name, *place);
-        job.out.line(&format!(
-            "distributing = {{ set = {}, reference = {}{weights} }}",
-            toml::text(&set),
-            toml::text(&point)
-        ));
+        let mean = Distributing {
+            set,
+            reference,
+            weights,
+        };
+        couple(job, &label, *place, CouplingKind::Distributing(mean));
         return;
     }
     let dim = bodies.dim();
@@ -203,13 +204,14 @@ fn coupled(job: &mut Job, bodies: &Bodies, sets: &mut Sets, coupling: &NodeCoupl
         );
         return;
     }
-    let axes = ["x", "y", "z"].iter().zip(chosen).filter(|(_, c)| **c);
-    let axes: Vec<&str> = axes.map(|(a, _)| *a).collect();
-    let more = match all {
-        true => String::new(),
-        false => format!(", components = {}", toml::texts(&axes)),
+    let some = COMPONENTS.into_iter().zip(chosen).filter(|(_, c)| **c);
+    let some = some.map(|(component, _)| component).collect();
+    let tied = Kinematic {
+        set,
+        reference,
+        components: (!all).then_some(some),
     };
-    tie(job, &label, &set, &point, *place, &more);
+    couple(job, &label, *place, CouplingKind::Kinematic(tied));
 }
 
 /// Where a reference node lies beside the centre of the nodes of a `*DISTRIBUTING COUPLING`, its force has an arm in Abaqus, and here; in CalculiX the
@@ -276,14 +278,14 @@ fn refuse_left_out(job: &mut Job, coupling: &NodeCoupling) {
     }
 }
 
-/// The set that is tied, and the weights of its points as the problem writes them.
+/// The set that is tied, and the weights of its points.
 fn tied(
     job: &mut Job,
     bodies: &Bodies,
     sets: &mut Sets,
     coupling: &NodeCoupling,
-) -> Option<(String, String)> {
-    let (place, name) = (coupling.place, toml::name(&coupling.name));
+) -> Option<(String, Weights)> {
+    let (place, name) = (coupling.place, problem_name(&coupling.name));
     let nothing = |job: &mut Job, what: &str| {
         let message = format!("coupling {} ties {what}", coupling.name);
         job.error(
@@ -304,21 +306,21 @@ fn tied(
                     nothing(job, "no node of a body");
                     return None;
                 }
-                let set = sets.points(bodies, &toml::name(surface), &own);
-                return Some((set, ", weights = \"uniform\"".into()));
+                let set = sets.points(bodies, &problem_name(surface), &own);
+                return Some((set, Weights::Uniform));
             }
             let by = bodies.faces(&found.parts);
-            let facets = sets.facets(bodies, &toml::name(surface), &by);
+            let facets = sets.facets(bodies, &problem_name(surface), &by);
             match facets.as_slice() {
                 [] => {
                     nothing(job, "no face of a body");
                     None
                 }
-                [(_, one)] => Some((one.clone(), String::new())),
+                [(_, one)] => Some((one.clone(), Weights::Area)),
                 // The points of faces of several bodies.
                 _ => {
                     let names = facets.into_iter().map(|(_, name)| name).collect();
-                    Some((sets.union(&name, names), String::new()))
+                    Some((sets.union(&name, names), Weights::Area))
                 }
             }
         }
@@ -336,19 +338,16 @@ fn tied(
             }
             let set = sets.points(bodies, &format!("{name}-nodes"), &all);
             if by_weight.len() == 1 {
-                return Some((set, ", weights = \"uniform\"".into()));
+                return Some((set, Weights::Uniform));
             }
             let mut parts = Vec::new();
             for (i, (weight, nodes)) in by_weight.iter().enumerate() {
-                let part = sets.points(bodies, &format!("{name}-nodes-{}", i + 1), nodes);
-                let weight = toml::number(f64::from_bits(*weight));
-                parts.push(format!(
-                    "{{ set = {}, weight = {weight} }}",
-                    toml::text(&part)
-                ));
+                parts.push(SetWeight {
+                    set: sets.points(bodies, &format!("{name}-nodes-{}", i + 1), nodes),
+                    weight: f64::from_bits(*weight),
+                });
             }
-            let weights = format!(", weights.sets = [{}]", parts.join(", "));
-            Some((set, weights))
+            Some((set, Weights::Sets(parts)))
         }
     }
 }

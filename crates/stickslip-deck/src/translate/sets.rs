@@ -3,9 +3,10 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use stickslip::mesh::{CellRef, FacetRef, Mesh};
+use stickslip::problem::{Select, Set};
 
 use super::bodies::Bodies;
-use super::toml;
+use super::names::problem_name;
 use crate::deck::Deck;
 
 /// Sets that are given to the mesh, and tables of the problem that join them.
@@ -50,7 +51,7 @@ impl Sets {
                 .iter()
                 .copied()
                 .filter(|n| bodies.of_node.contains_key(n));
-            let name = free(&toml::name(name), |n| taken.contains(n));
+            let name = free(&problem_name(name), |n| taken.contains(n));
             let entry = sets.of_points.entry(known.collect());
             taken.insert(entry.or_insert(name).clone());
         }
@@ -60,7 +61,7 @@ impl Sets {
                 .iter()
                 .copied()
                 .filter(|e| bodies.of_element.contains_key(e));
-            let name = free(&toml::name(name), |n| taken.contains(n));
+            let name = free(&problem_name(name), |n| taken.contains(n));
             let entry = sets.of_cells.entry(known.collect());
             taken.insert(entry.or_insert(name).clone());
         }
@@ -69,7 +70,7 @@ impl Sets {
             let all = bodies.faces(&surface.parts);
             let all: BTreeSet<FacetRef> = all.into_values().flatten().collect();
             if !all.is_empty() {
-                let name = free(&toml::name(name), |n| taken.contains(n));
+                let name = free(&problem_name(name), |n| taken.contains(n));
                 let entry = sets.of_facets.entry(all);
                 taken.insert(entry.or_insert(name).clone());
             }
@@ -193,12 +194,17 @@ impl Sets {
         self.facets.insert(name.to_string(), list);
     }
 
-    /// The tables of the problem that join sets of several bodies.
-    pub fn tables(&self) -> Vec<String> {
-        let table = |(name, parts): (&String, &Vec<String>)| {
-            format!("[set.{}]\nunion = {}", toml::key(name), toml::texts(parts))
+    /// The sets of the problem that join those of several bodies.
+    pub fn unions(&self) -> BTreeMap<String, Set> {
+        let union = |(name, parts): (&String, &Vec<String>)| {
+            let set = Set {
+                of: None,
+                tolerance: 1e-6,
+                select: Select::Union(parts.clone()),
+            };
+            (name.clone(), set)
         };
-        self.unions.iter().map(table).collect()
+        self.unions.iter().map(union).collect()
     }
 
     /// The mesh with the sets that were asked for.

@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use stickslip::problem::{SteadySliding, Turning};
+
 use super::bodies::Bodies;
 use super::contact::surface_nodes;
 use super::job::Job;
-use super::toml;
 use crate::card::Place;
 use crate::deck::{Action, Deck, MaterialVelocity, Procedure, Target};
 
@@ -83,24 +84,24 @@ fn set(job: &Job, velocities: &mut Velocities, target: &Target, velocity: &Mater
     }
 }
 
-/// The line of a step in which material moves.
+/// What moves past what in a step.
 fn slide(job: &mut Job, bodies: &Bodies, velocities: &Velocities, step: usize, place: Place) {
     let dim = bodies.dim();
-    let mut entries = Vec::new();
+    let mut steady = SteadySliding::default();
     for (interface, slave, master) in job.pairs.clone() {
         let sides = [slave, master].map(|name| side(job, bodies, velocities, &name, place));
         let [Some(slave), Some(master)] = sides else {
             return;
         };
         let along: [f64; 3] = std::array::from_fn(|i| master.along[i] - slave.along[i]);
-        let key = toml::key(&interface);
         if along != [0.0; 3] {
-            entries.push(format!("velocity.{key} = {}", toml::numbers(&along[..dim])));
+            let velocity = along[..dim].to_vec();
+            steady.velocity.insert(interface.clone(), velocity);
         }
         match relative(slave, master) {
             Ok(None) => {}
             Ok(Some((centre, turning))) => {
-                entries.push(format!("turning.{key} = {}", turn(dim, centre, turning)));
+                steady.turning.insert(interface, turn(dim, centre, turning));
             }
             Err(message) => {
                 let help = "let one of the two surfaces turn, by the difference";
@@ -108,12 +109,11 @@ fn slide(job: &mut Job, bodies: &Bodies, velocities: &Velocities, step: usize, p
             }
         }
     }
-    if entries.is_empty() {
+    if steady == SteadySliding::default() {
         let help = "name the nodes of one side of a *CONTACT PAIR";
         return job.warn(place, "*MOTION moves no surface past another", help);
     }
-    let line = format!("steady = {{ {} }}", entries.join(", "));
-    job.sliding.push((step, line));
+    job.problem.step[step].steady = Some(steady);
 }
 
 /// How the primary turns against the secondary.
@@ -129,21 +129,21 @@ fn relative(slave: Moving, master: Moving) -> Result<Turn, &'static str> {
     Ok(turn.filter(|(_, w)| *w != [0.0; 3]))
 }
 
-fn turn(dim: usize, centre: [f64; 3], turning: [f64; 3]) -> String {
-    let centre = toml::numbers(&centre[..dim]);
+fn turn(dim: usize, centre: [f64; 3], turning: [f64; 3]) -> Turning {
+    let centre = centre[..dim].to_vec();
     if dim == 2 {
-        return format!(
-            "{{ centre = {centre}, speed = {} }}",
-            toml::number(turning[2])
-        );
+        return Turning {
+            centre,
+            axis: Vec::new(),
+            speed: turning[2],
+        };
     }
     let speed = turning.iter().map(|w| w * w).sum::<f64>().sqrt();
-    let axis = turning.map(|w| w / speed);
-    format!(
-        "{{ centre = {centre}, axis = {}, speed = {} }}",
-        toml::numbers(&axis),
-        toml::number(speed)
-    )
+    Turning {
+        centre,
+        axis: turning.map(|w| w / speed).to_vec(),
+        speed,
+    }
 }
 
 /// The velocity of a surface, which all of its nodes have.

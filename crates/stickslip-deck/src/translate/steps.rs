@@ -1,13 +1,16 @@
 //! Steps and output.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use stickslip::io::frd::Encoding;
+use stickslip::problem::{
+    ComplexModes, Coupling, Dynamic, Frd, Increments, Interface, Load, Modes, Support, Temperature,
+};
+use stickslip::time::scheme::{CentralDifference, Hht, SchemeModel};
 
 use super::harmonic;
-use super::job::Job;
+use super::job::{Active, Job, Listed};
 use super::spans::{duration, times};
-use super::toml;
 use crate::deck::{Deck, Print, Procedure, Step, When};
 
 pub(super) fn write(job: &mut Job) {
@@ -23,58 +26,55 @@ pub(super) fn write(job: &mut Job) {
     }
     for (i, step) in deck.steps.iter().enumerate() {
         job.places.push((format!("step.{i}"), step.place));
-        job.out.line("");
-        job.out.line("[[step]]");
-        let length = duration(step);
-        job.out
-            .line(&format!("duration = {}", toml::number(length)));
-        acting(job, i);
-        match modes(step).or_else(|| harmonic::line(job, i)) {
-            Some(line) => job.out.line(&line),
-            None => {
-                let sizes = increments(step).join(", ");
-                job.out.line(&format!("increments = {{ {sizes} }}"));
+        acting::<Support>(job, i);
+        acting::<Load>(job, i);
+        acting::<Temperature>(job, i);
+        acting::<Interface>(job, i);
+        acting::<Coupling>(job, i);
+        let harmonic = harmonic::harmonic(job, i);
+        let table = &mut job.problem.step[i];
+        table.harmonic = harmonic;
+        match step.procedure {
+            Procedure::Frequency { count, range } => table.modes = Some(modes(count, range)),
+            Procedure::ComplexFrequency {
+                count,
+                highest,
+                friction_damping,
+            } => {
+                table.complex_modes = Some(ComplexModes {
+                    count,
+                    to: (highest > 0.0).then_some(highest),
+                    friction_damping,
+                    ..ComplexModes::default()
+                });
             }
+            Procedure::Harmonic { .. } => {}
+            _ => table.increments = increments(step),
         }
-        if let Some(line) = motion(step) {
-            job.out.line(&line);
-        }
-        let slides = job.sliding.iter().filter(|(s, _)| *s == i);
-        slides.for_each(|(_, line)| job.out.line(line));
-        changes(job, i);
-        let tensions = job.tensions.iter().filter(|(s, _)| *s == i);
-        tensions.for_each(|(_, line)| job.out.line(line));
+        table.dynamic = motion(step);
     }
 }
 
 /// The tables that act in a step, where some do not act in all.
-fn acting(job: &mut Job, step: usize) {
-    for (kind, table) in [
-        ("supports", None),
-        ("loads", None),
-        ("temperatures", None),
-        ("interfaces", Some("interface.")),
-        ("couplings", Some("coupling.")),
-    ] {
-        let all: Vec<&(&str, String, Vec<bool>)> =
-            job.active.iter().filter(|a| a.0 == kind).collect();
-        if all.iter().any(|a| a.2.contains(&false)) {
-            let on = all.iter().filter(|a| a.2[step]);
-            let mut names: Vec<String> = on.map(|a| a.1.clone()).collect();
-            if let Some(table) = table {
-                // What says nothing of steps acts in all.
-                let listed = |n: &str| all.iter().any(|a| a.1 == n);
-                let always = job.places.iter();
-                let always = always.filter_map(|(k, _)| k.strip_prefix(table));
-                names.extend(always.filter(|n| !listed(n)).map(str::to_string));
-            }
-            job.out.line(&format!("{kind} = {}", toml::texts(&names)));
-        }
+fn acting<T: Listed>(job: &mut Job, step: usize) {
+    let all: Vec<&Active> = job.active.iter().filter(|a| a.kind == T::KIND).collect();
+    if all.iter().all(|a| !a.steps.contains(&false)) {
+        return;
     }
+    let on = all.iter().filter(|a| a.steps[step]);
+    let mut names: Vec<String> = on.map(|a| a.name.clone()).collect();
+    // What says nothing of steps acts in all.
+    let own = |(key, _): &'_ (String, _)| {
+        let name = key.strip_prefix(T::KIND)?.strip_prefix('.')?;
+        Some(name.to_string())
+    };
+    let own = job.places.iter().filter_map(own);
+    names.extend(own.filter(|n| all.iter().all(|a| a.name != *n)));
+    *T::list(&mut job.problem.step[step]) = Some(names);
 }
 
 /// The sizes of the increments of a step, as parts of its length.
-fn increments(step: &Step) -> Vec<String> {
+fn increments(step: &Step) -> Increments {
     let length = duration(step);
     let [first, _, smallest, largest] = times(step);
     let (direct, explicit) = match step.procedure {
@@ -85,9 +85,10 @@ fn increments(step: &Step) -> Vec<String> {
         _ => (false, false),
     };
     let fraction = |t: f64| (t / length).clamp(1e-12, 1.0);
-    let mut sizes = Vec::new();
+    let mut sizes = Increments::default();
     if direct && first > 0.0 {
-        sizes.push(format!("fixed = {}", (length / first).round().max(1.0)));
+        // As many as a problem file can say: its check tells of too many.
+        sizes.fixed = Some((length / first).round().max(1.0) as i64 as usize);
         return sizes;
     }
     // An explicit step finds its increments itself, up to the largest.
@@ -97,51 +98,29 @@ fn increments(step: &Step) -> Vec<String> {
         (false, true) => fraction(largest),
         (false, false) => 1.0,
     };
-    sizes.push(format!("initial = {}", toml::number(initial)));
+    sizes.initial = initial;
     if smallest > 0.0 && !explicit {
-        sizes.push(format!(
-            "smallest = {}",
-            toml::number(fraction(smallest).min(initial))
-        ));
+        sizes.smallest = fraction(smallest).min(initial);
     }
     if largest > 0.0 {
-        sizes.push(format!(
-            "largest = {}",
-            toml::number(fraction(largest).max(fraction(smallest)).max(initial))
-        ));
+        sizes.largest = fraction(largest).max(fraction(smallest)).max(initial);
     }
     sizes
 }
 
-/// Which modes a step looks for, where it does.
-fn modes(step: &Step) -> Option<String> {
-    let (count, range) = match step.procedure {
-        Procedure::Frequency { count, range } => (count, range),
-        Procedure::ComplexFrequency {
-            count,
-            highest,
-            friction_damping,
-        } => {
-            let to = match highest > 0.0 {
-                true => format!(", to = {}", toml::number(highest)),
-                false => String::new(),
-            };
-            return Some(format!(
-                "complex-modes = {{ count = {count}{to}, friction-damping = {friction_damping} }}"
-            ));
-        }
-        _ => return None,
-    };
-    let ends = ["from", "to"].into_iter().zip(range);
-    let ends = ends.filter(|(_, f)| *f > 0.0);
-    let ends: String = ends
-        .map(|(key, f)| format!(", {key} = {}", toml::number(f)))
-        .collect();
-    Some(format!("modes = {{ count = {count}{ends} }}"))
+/// Modes in a range of frequencies, whose ends are zero where they are not given.
+fn modes(count: usize, range: [f64; 2]) -> Modes {
+    let [from, to] = range.map(|f| (f > 0.0).then_some(f));
+    Modes {
+        count,
+        from,
+        to,
+        ..Modes::default()
+    }
 }
 
 /// How motion is integrated.
-fn motion(step: &Step) -> Option<String> {
+fn motion(step: &Step) -> Option<Dynamic> {
     let Procedure::Dynamic {
         explicit, alpha, ..
     } = step.procedure
@@ -149,37 +128,21 @@ fn motion(step: &Step) -> Option<String> {
         return None;
     };
     let [_, _, smallest, _] = times(step);
-    Some(match explicit {
+    let scheme = match explicit {
         // What is the smallest increment elsewhere is one to be reached by mass scaling in an explicit step.
-        true if smallest > 0.0 => format!(
-            "dynamic = {{ scheme.central-difference = {{ mass-scaling = {} }} }}",
-            toml::number(smallest)
-        ),
-        true => "dynamic = { scheme.central-difference = {} }".to_string(),
+        true => SchemeModel::CentralDifference(CentralDifference {
+            mass_scaling: (smallest > 0.0).then_some(smallest),
+            ..CentralDifference::default()
+        }),
         // CalculiX's own default.
-        false => {
-            let alpha = toml::number(alpha.unwrap_or(-0.05));
-            format!("dynamic = {{ scheme.hht = {{ alpha = {alpha} }} }}")
-        }
+        false => SchemeModel::Hht(Hht {
+            alpha: alpha.unwrap_or(-0.05),
+        }),
+    };
+    Some(Dynamic {
+        scheme,
+        ..Dynamic::default()
     })
-}
-
-/// The laws of interfaces that a step changes.
-fn changes(job: &mut Job, step: usize) {
-    let mut changes: BTreeMap<String, Vec<String>> = BTreeMap::new();
-    for (_, interface, line) in job.changes.iter().filter(|(s, ..)| *s == step) {
-        changes
-            .entry(interface.clone())
-            .or_default()
-            .push(line.clone());
-    }
-    for (interface, lines) in changes {
-        job.out.line(&format!(
-            "change.{} = {{ {} }}",
-            toml::key(&interface),
-            lines.join(", ")
-        ));
-    }
 }
 
 /// The largest number of increments that divides both.
@@ -228,16 +191,12 @@ fn output(job: &mut Job) {
     }
     at.sort_by(f64::total_cmp);
     at.dedup();
-    job.out.line("");
-    job.out.line("[output]");
-    job.out.line(&format!("every = {}", every.unwrap_or(0)));
-    if !at.is_empty() {
-        job.out.line(&format!("times = {}", toml::numbers(&at)));
-    }
+    job.problem.output.every = every.unwrap_or(0);
+    job.problem.output.times = at;
     if let Some(encoding) = deck.output.frd {
-        job.out.line(match encoding {
-            Encoding::Text => "frd = \"text\"",
-            Encoding::Binary => "frd = \"binary\"",
-        });
+        job.problem.output.frd = match encoding {
+            Encoding::Text => Frd::Text,
+            Encoding::Binary => Frd::Binary,
+        };
     }
 }

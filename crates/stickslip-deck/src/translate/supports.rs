@@ -2,13 +2,27 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use stickslip::body::couplings::{CouplingKind, Equation, Term};
+use stickslip::problem::{Component, Coupling, Support};
+
 use super::bodies::Bodies;
+use super::courses;
 use super::job::Job;
+use super::names::problem_name;
 use super::sets::Sets;
-use super::{courses, toml};
 use crate::axes;
 use crate::card::Place;
 use crate::deck::{Action, Boundary, Rigid, Target};
+
+/// Displacements and rotations, in the order of directions 1 to 6.
+pub(super) const COMPONENTS: [Component; 6] = [
+    Component::X,
+    Component::Y,
+    Component::Z,
+    Component::RotationX,
+    Component::RotationY,
+    Component::RotationZ,
+];
 
 /// What is prescribed of one displacement in one step.
 #[derive(Debug, Clone, PartialEq)]
@@ -214,10 +228,10 @@ fn support(
     nodes: Vec<u64>,
     first: Value,
 ) {
-    let name = job.fresh("support", &toml::name(&first.label));
+    let name = job.fresh::<Support>(&problem_name(&first.label));
     let set = match own {
         Some(node) => bodies.references[&node].clone(),
-        None => sets.points(bodies, &toml::name(&first.label), &nodes),
+        None => sets.points(bodies, &problem_name(&first.label), &nodes),
     };
     let given = values
         .iter()
@@ -230,26 +244,34 @@ fn support(
         true => None,
         false => course(job, &amplitude, &steps, largest, first.place, &name),
     };
-    job.table("support", &name, first.place);
-    job.out.line(&format!("set = {}", toml::text(&set)));
-    let mut held = Vec::new();
-    for (axis, v) in toml::COMPONENTS.iter().zip(values) {
-        match v {
-            Some((_, true)) => held.push(*axis),
-            Some((bits, false)) => job
-                .out
-                .line(&format!("{axis} = {}", toml::number(f64::from_bits(bits)))),
-            None => {}
-        }
+    let held = COMPONENTS.into_iter().zip(values);
+    let held = held.filter(|(_, v)| v.is_some_and(|(_, fixed)| fixed));
+    let moved = values.map(|v| {
+        v.filter(|(_, fixed)| !fixed)
+            .map(|(bits, _)| f64::from_bits(bits))
+    });
+    let support = Support {
+        hold: held.map(|(component, _)| component).collect(),
+        ..prescribed(set, moved, factor)
+    };
+    job.add(&name, first.place, support);
+    job.acts::<Support>(name, steps.0);
+}
+
+/// Displacements and rotations that are prescribed.
+fn prescribed(set: String, values: [Option<f64>; 6], amplitude: Option<String>) -> Support {
+    let [x, y, z, rotation_x, rotation_y, rotation_z] = values;
+    Support {
+        set,
+        x,
+        y,
+        z,
+        rotation_x,
+        rotation_y,
+        rotation_z,
+        hold: Vec::new(),
+        amplitude,
     }
-    if !held.is_empty() {
-        job.out.line(&format!("hold = {}", toml::texts(&held)));
-    }
-    if let Some(factor) = factor {
-        job.out
-            .line(&format!("amplitude = {}", toml::text(&factor)));
-    }
-    job.active.push(("supports", name, steps.0));
 }
 
 /// The amplitude of what is prescribed, under its name in the problem.
@@ -317,7 +339,7 @@ fn reference(
         );
         return;
     }
-    let name = job.fresh("support", &toml::name(&first.label));
+    let name = job.fresh::<Support>(&problem_name(&first.label));
     let body = bodies.all.iter().find(|b| b.rigid == Some(index));
     let Some(set) = body.map(|body| body.name.clone()) else {
         return;
@@ -326,18 +348,9 @@ fn reference(
     let given = values.iter().flatten().map(|v| v.value.abs());
     let largest = given.fold(0.0, f64::max);
     let factor = course(job, amplitude, when, largest, place, &name);
-    job.table("support", &name, place);
-    job.out.line(&format!("set = {}", toml::text(&set)));
-    for (axis, v) in ["x", "y", "z"][..dim].iter().zip(values) {
-        if let Some(v) = v {
-            job.out.line(&format!("{axis} = {}", toml::number(v.value)));
-        }
-    }
-    if let Some(factor) = factor {
-        job.out
-            .line(&format!("amplitude = {}", toml::text(&factor)));
-    }
-    job.active.push(("supports", name, when.0.clone()));
+    let moved = std::array::from_fn(|i| values[i].as_ref().filter(|_| i < dim).map(|v| v.value));
+    job.add(&name, place, prescribed(set, moved, factor));
+    job.acts::<Support>(name, when.0.clone());
 }
 
 /// A node with local axes: an equation along each that is prescribed.
@@ -367,7 +380,7 @@ fn local(
         );
         return;
     };
-    let label = toml::name(&format!("node-{}", job.deck.label(node)));
+    let label = problem_name(&format!("node-{}", job.deck.label(node)));
     let set = sets.points(bodies, &label, &[node]);
     for (axis, v) in axes.iter().zip(values) {
         let Some(v) = v else { continue };
@@ -379,30 +392,23 @@ fn local(
             );
             return;
         }
-        let name = job.fresh("coupling", &toml::name(&format!("{}-{node}", v.label)));
+        let name = job.fresh::<Coupling>(&problem_name(&format!("{}-{node}", v.label)));
         let factor = course(job, amplitude, when, v.value, v.place, &name);
-        let terms: Vec<String> = ["x", "y", "z"][..bodies.dim()]
-            .iter()
-            .zip(axis)
-            .filter(|(_, f)| f.abs() > 1e-14)
-            .map(|(c, f)| {
-                format!(
-                    "{{ set = {}, component = \"{c}\", factor = {} }}",
-                    toml::text(&set),
-                    toml::number(*f)
-                )
-            })
-            .collect();
-        job.table("coupling", &name, v.place);
-        job.out.line(&format!(
-            "equation = {{ terms = [{}], value = {} }}",
-            terms.join(", "),
-            toml::number(v.value)
-        ));
-        if let Some(factor) = factor {
-            job.out
-                .line(&format!("amplitude = {}", toml::text(&factor)));
-        }
-        job.active.push(("couplings", name, when.0.clone()));
+        let term = |(component, factor): (Component, &f64)| Term {
+            set: set.clone(),
+            component,
+            factor: *factor,
+        };
+        let all = COMPONENTS.into_iter().zip(axis).take(bodies.dim());
+        let equation = Equation {
+            terms: all.filter(|(_, f)| f.abs() > 1e-14).map(term).collect(),
+            value: v.value,
+        };
+        let coupling = Coupling {
+            amplitude: factor,
+            kind: CouplingKind::Equation(equation),
+        };
+        job.add(&name, v.place, coupling);
+        job.acts::<Coupling>(name, when.0.clone());
     }
 }

@@ -2,12 +2,15 @@
 
 use std::collections::BTreeMap;
 
+use stickslip::body::heat::{Nodes, TemperatureKind, Uniform};
+use stickslip::problem::{self, Initial};
+
 use super::acting::{Given, When, collect, label};
 use super::bodies::Bodies;
 use super::courses;
 use super::job::Job;
+use super::names::problem_name;
 use super::sets::Sets;
-use super::toml;
 use crate::card::Place;
 use crate::deck::{Action, Temperature};
 
@@ -87,29 +90,25 @@ fn field(
         return;
     };
     let numbers: Vec<u64> = nodes.keys().copied().collect();
-    let set = sets.points(bodies, &toml::name(label), &numbers);
-    let name = job.fresh("temperature", &toml::name(label));
-    job.table("temperature", &name, place);
-    job.out.line(&format!("set = {}", toml::text(&set)));
-    if let Some(factor) = factor {
-        job.out
-            .line(&format!("amplitude = {}", toml::text(&factor)));
-    }
-    job.out.line(&spread(nodes));
-    job.active.push(("temperatures", name, when.steps.clone()));
+    let set = sets.points(bodies, &problem_name(label), &numbers);
+    let name = job.fresh::<problem::Temperature>(&problem_name(label));
+    let field = problem::Temperature {
+        set,
+        amplitude: factor,
+        kind: spread(nodes),
+    };
+    job.add(&name, place, field);
+    job.acts::<problem::Temperature>(name, when.steps.clone());
 }
 
 /// One number, or one for each node.
-fn spread(nodes: &BTreeMap<u64, f64>) -> String {
-    let first = nodes.values().next().copied().unwrap_or(0.0);
-    if nodes.values().all(|t| *t == first) {
-        return format!("uniform = {{ value = {} }}", toml::number(first));
+fn spread(nodes: &BTreeMap<u64, f64>) -> TemperatureKind {
+    let value = nodes.values().next().copied().unwrap_or(0.0);
+    if nodes.values().all(|t| *t == value) {
+        return TemperatureKind::Uniform(Uniform { value });
     }
-    let rows = nodes
-        .iter()
-        .map(|(n, t)| format!("[{n}, {}]", toml::number(*t)));
-    let rows: Vec<String> = rows.collect();
-    format!("nodes = {{ values = [{}] }}", rows.join(", "))
+    let values = nodes.iter().map(|(n, t)| [*n as f64, *t]).collect();
+    TemperatureKind::Nodes(Nodes { values })
 }
 
 /// The amplitude that a field needs, if any; nothing if there is none that says what the deck does.
@@ -135,14 +134,7 @@ fn course(job: &mut Job, when: &When, place: Place, label: &str) -> Option<Optio
         return Some(None);
     }
     if all.iter().all(|(at_once, _)| *at_once) {
-        let end = job.spans.last().map_or(1.0, |[s, l]| s + l);
-        let name = job.fresh("amplitude", &toml::name(&format!("{label}-course")));
-        job.table("amplitude", &name, place);
-        job.out.line(&format!(
-            "table = [[0.0, 1.0], {}]",
-            toml::numbers(&[end, 1.0])
-        ));
-        return Some(Some(name));
+        return Some(Some(courses::at_once(job, label, place)));
     }
     job.error(
         place,
@@ -164,9 +156,12 @@ fn initial(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     let (place, label) = (first.place, label(job.deck, &first.target));
     let nodes: BTreeMap<u64, f64> = places.iter().map(|(n, t)| (*n, t.value)).collect();
     let numbers: Vec<u64> = nodes.keys().copied().collect();
-    let set = sets.points(bodies, &toml::name(&label), &numbers);
-    let name = job.fresh("initial", &toml::name(&format!("temperature-{label}")));
-    job.table("initial", &name, place);
-    job.out.line(&format!("set = {}", toml::text(&set)));
-    job.out.line(&format!("temperature.{}", spread(&nodes)));
+    let set = sets.points(bodies, &problem_name(&label), &numbers);
+    let name = job.fresh::<Initial>(&problem_name(&format!("temperature-{label}")));
+    let start = Initial {
+        set,
+        temperature: Some(spread(&nodes)),
+        ..Initial::default()
+    };
+    job.add(name, place, start);
 }

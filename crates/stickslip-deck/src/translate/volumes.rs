@@ -2,13 +2,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use stickslip::body::loads::{BodyForce, Centrifugal, Gravity, LoadKind, NodalForce};
 use stickslip::math::{add_scaled, dot, normalize, scale, sub};
 
-use super::acting::{Acting, Given, When, collect, open, two_courses};
+use super::acting::{Acting, Given, When, add_load, collect, two_courses};
 use super::bodies::Bodies;
 use super::job::Job;
+use super::names::problem_name;
 use super::sets::Sets;
-use super::toml;
 use crate::deck::{Action, Distributed};
 
 /// An acceleration of a set of elements.
@@ -113,31 +114,24 @@ fn accelerations(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         if a.what.value == 0.0 {
             continue;
         }
-        for set in sets.cells_of(bodies, &toml::name(&a.label), &a.what.elements) {
-            open(job, &a.label, &set, a.place, &a.when());
-            job.out.line(&line(bodies.dim(), &a.what));
+        for set in sets.cells_of(bodies, &problem_name(&a.label), &a.what.elements) {
+            let kind = inertia(bodies.dim(), &a.what);
+            add_load(job, &a.label, set, a.place, &a.when(), kind);
         }
         masses(job, bodies, sets, &a);
     }
 }
 
-fn line(dim: usize, a: &Acceleration) -> String {
+fn inertia(dim: usize, a: &Acceleration) -> LoadKind {
     match a.field {
-        Field::Uniform(d) => format!(
-            "gravity = {{ acceleration = {} }}",
-            toml::numbers(&scale(a.value, d)[..dim])
-        ),
-        Field::Away(p, d) => {
-            let axis = match dim {
-                3 => format!(", axis = {}", toml::numbers(&d)),
-                _ => String::new(),
-            };
-            format!(
-                "centrifugal = {{ speed = {}, point = {}{axis} }}",
-                toml::number(a.value.sqrt()),
-                toml::numbers(&p[..dim])
-            )
-        }
+        Field::Uniform(d) => LoadKind::Gravity(Gravity {
+            acceleration: scale(a.value, d)[..dim].to_vec(),
+        }),
+        Field::Away(p, d) => LoadKind::Centrifugal(Centrifugal {
+            speed: a.value.sqrt(),
+            point: Some(p[..dim].to_vec()),
+            axis: (dim == 3).then(|| d.to_vec()),
+        }),
     }
 }
 
@@ -174,10 +168,9 @@ fn masses(job: &mut Job, bodies: &Bodies, sets: &mut Sets, a: &Acting<Accelerati
     for (force, nodes) in groups {
         let label = format!("{}-of-masses", a.label);
         let set = sets.points(bodies, &label, &nodes);
-        open(job, &label, &set, a.place, &a.when());
-        let value = toml::numbers(&force.map(f64::from_bits)[..bodies.dim()]);
-        job.out
-            .line(&format!("nodal-force = {{ value = {value} }}"));
+        let value = force.map(f64::from_bits)[..bodies.dim()].to_vec();
+        let kind = LoadKind::NodalForce(NodalForce { value });
+        add_load(job, &label, set, a.place, &a.when(), kind);
     }
 }
 
@@ -241,12 +234,11 @@ fn forces(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
         let value: Vec<f64> = (0..dim)
             .map(|i| if i == axis { a.what } else { 0.0 })
             .collect();
-        for set in sets.cells_of(bodies, &toml::name(&a.label), &elements) {
-            open(job, &a.label, &set, a.place, &when);
-            job.out.line(&format!(
-                "body-force = {{ value = {} }}",
-                toml::numbers(&value)
-            ));
+        for set in sets.cells_of(bodies, &problem_name(&a.label), &elements) {
+            let kind = LoadKind::BodyForce(BodyForce {
+                value: value.clone(),
+            });
+            add_load(job, &a.label, set, a.place, &when, kind);
         }
     }
 }

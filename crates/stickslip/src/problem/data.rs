@@ -103,6 +103,34 @@ pub struct Problem {
 }
 
 impl Problem {
+    /// A problem without bodies and steps.
+    pub fn new(model: Model) -> Self {
+        Problem {
+            format: FORMAT,
+            title: None,
+            model,
+            body: BTreeMap::new(),
+            material: BTreeMap::new(),
+            obstacle: BTreeMap::new(),
+            set: BTreeMap::new(),
+            reference: BTreeMap::new(),
+            interface: BTreeMap::new(),
+            support: BTreeMap::new(),
+            load: BTreeMap::new(),
+            temperature: BTreeMap::new(),
+            mass: BTreeMap::new(),
+            coupling: BTreeMap::new(),
+            pretension: BTreeMap::new(),
+            amplitude: BTreeMap::new(),
+            initial: BTreeMap::new(),
+            step: Vec::new(),
+            solver: Solver::default(),
+            quality: Quality::default(),
+            output: Output::default(),
+            probe: BTreeMap::new(),
+        }
+    }
+
     /// As the text of a problem file, which gives the same problem again.
     ///
     /// # Errors

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::body::heat::TemperatureKind;
 
 /// `[initial.NAME]`: displacements and temperatures at the start of the analysis, and velocities at the start of a dynamic step.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Initial {

@@ -14,7 +14,7 @@ use crate::contact::law::slip::SlipModel;
 use crate::contact::law::wear::{Feedback, WearModel};
 
 /// `[interface.NAME]`: two surfaces that may touch, and their laws.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Interface {

@@ -10,6 +10,7 @@
 mod advice;
 mod amplitude;
 mod body;
+mod brief;
 mod build;
 mod changes;
 mod check;

@@ -198,7 +198,7 @@ impl<'s> Walk<'s> {
             .collect();
         let mut chosen: Option<String> = None;
         let mut unknown = false;
-        for (name, value) in in_order(table) {
+        for (name, value) in tree::in_order(table) {
             let span = name.span();
             let name: &str = name.get_ref();
             let find = |list: &[(&str, &'s Json)]| {
@@ -258,18 +258,6 @@ impl<'s> Walk<'s> {
             self.report(at, message, Some(help));
         }
     }
-}
-
-/// The entries of a table in the order of the text.
-fn in_order<'t, 'i>(
-    table: &'t Table<'i>,
-) -> Vec<(
-    &'t Spanned<std::borrow::Cow<'i, str>>,
-    &'t Spanned<Value<'i>>,
-)> {
-    let mut all: Vec<_> = table.iter().collect();
-    all.sort_by_key(|(name, _)| name.span().start);
-    all
 }
 
 fn found_name(kind: &str) -> &str {

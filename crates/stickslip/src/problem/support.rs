@@ -6,7 +6,7 @@ pub use crate::system::Component;
 ///
 /// Over the step in which it becomes active, a support moves linearly from the displacement the points have to the
 /// one prescribed, unless an amplitude says otherwise. In a step that does not list it, it lets go.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Support {

@@ -111,6 +111,15 @@ pub(super) fn key_elsewhere<'i>(key: String) -> Spanned<Cow<'i, str>> {
     Spanned::new(ELSEWHERE, Cow::Owned(key))
 }
 
+/// The entries of a table in the order of the text.
+pub(super) fn in_order<'t, 'i>(
+    table: &'t Table<'i>,
+) -> Vec<(&'t Spanned<Cow<'i, str>>, &'t Spanned<Value<'i>>)> {
+    let mut all: Vec<_> = table.iter().collect();
+    all.sort_by_key(|(name, _)| name.span().start);
+    all
+}
+
 /// The number a value stands for, if it is one.
 pub(super) fn number(value: &Value) -> Option<f64> {
     match value {

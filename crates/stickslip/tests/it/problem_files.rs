@@ -500,6 +500,18 @@ fn round_trip() {
 }
 
 #[test]
+fn a_brief_text_says_what_is_not_usual() {
+    let mut problem = Problem::from_toml(SOUND, None).unwrap();
+    problem.output.every = 3;
+    let text = problem.to_brief_toml().unwrap();
+    assert_eq!(Problem::from_toml(&text, None).unwrap(), problem);
+    assert!(text.contains("\n[output]\nevery = 3\n"), "{text}");
+    for usual in ["[solver]", "[quality]", "history-every", "checkpoint"] {
+        assert!(!text.contains(usual), "{usual}: {text}");
+    }
+}
+
+#[test]
 fn data_made_by_hand_obeys_the_same_rules() {
     let mut problem = Problem::from_toml(SOUND, None).unwrap();
     problem.step[0].duration = -1.0;
@@ -581,6 +593,9 @@ fn survives<F: Family>(place: impl Fn(&mut Problem, F)) {
         let table: toml::Table = text.parse().unwrap();
         let back: Problem = table.try_into().unwrap();
         assert_eq!(back, problem, "{} {kind}", F::KEY);
+        let table: toml::Table = problem.to_brief_toml().unwrap().parse().unwrap();
+        let back: Problem = table.try_into().unwrap();
+        assert_eq!(back, problem, "{} {kind}, in brief", F::KEY);
     }
 }
 

@@ -1,6 +1,8 @@
 //! Interactions, contact pairs and ties.
 
 use super::row::{Data, NUMERICS, Row, SUBROUTINE, card, harmless, harmless_card, read, refused};
+use crate::parse::reader::Context;
+use crate::parse::structure::Level;
 
 const EXACT: &str = "hard contact and sticking are exact here, which is what it approximates";
 const HEAT: &str = "temperatures are not computed, and what would change them is refused";
@@ -10,6 +12,7 @@ const TIE: &str = "only surfaces that stay together are tied; *EQUATION ties nod
 pub(super) const ROWS: &[Row] = &[
     card(
         "SURFACEINTERACTION",
+        |r, c| r.interaction(c),
         Data::Line("thickness"),
         &[
             read("NAME"),
@@ -23,9 +26,10 @@ pub(super) const ROWS: &[Row] = &[
             refused("PROPERTIES", SUBROUTINE),
             refused("TRACKING", "write *CONTACT PAIR with two surfaces"),
         ],
-    ),
+    ).kept(),
     card(
         "SURFACEBEHAVIOR",
+        |r, c| r.behavior(c),
         Data::Any,
         &[
             read("PRESSURE-OVERCLOSURE"),
@@ -34,9 +38,10 @@ pub(super) const ROWS: &[Row] = &[
             harmless("AUGMENTEDLAGRANGE", EXACT),
             refused("NOSEPARATION", "use *TIE, or a tied interface"),
         ],
-    ),
+    ).beneath(),
     card(
         "FRICTION",
+        |r, c| r.friction(c),
         Data::Any,
         &[
             read("TAUMAX"),
@@ -59,9 +64,10 @@ pub(super) const ROWS: &[Row] = &[
             refused("PROPERTIES", SUBROUTINE),
             refused("TESTDATA", "give the coefficients and the decay"),
         ],
-    ),
+    ).beneath(),
     card(
         "CHANGEFRICTION",
+        |r, c| { r.change(c, Context::ChangeFriction) },
         Data::Nothing,
         &[
             read("INTERACTION"),
@@ -74,6 +80,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "CHANGESURFACEBEHAVIOR",
+        |r, c| { r.change(c, Context::ChangeBehavior) },
         Data::Nothing,
         &[
             read("INTERACTION"),
@@ -82,11 +89,13 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "CONTACTDAMPING",
+        |r, c| r.contact_damping(c),
         Data::Line("damping coefficient"),
         &[read("DEFINITION"), read("TANGENTFRACTION")],
-    ),
+    ).beneath(),
     card(
         "CONTACTPAIR",
+        |r, c| r.contact_pair(c),
         Data::Lines("slave surface, master surface"),
         &[
             read("INTERACTION"),
@@ -120,6 +129,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "MODELCHANGE",
+        |r, c| r.model_change(c),
         Data::Any,
         &[
             read("TYPE"),
@@ -137,6 +147,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "CLEARANCE",
+        |r, c| r.clearance(c),
         Data::Nothing,
         &[
             read("MASTER"),
@@ -152,6 +163,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "TIE",
+        |r, c| r.tie(c),
         Data::Lines("slave surface, master surface"),
         &[
             read("NAME"),
@@ -167,7 +179,7 @@ pub(super) const ROWS: &[Row] = &[
             refused("FLUIDPERIODIC", TIE),
             refused("FLUIDCYCLIC", TIE),
         ],
-    ),
+    ).at(Level::Assembly),
     harmless_card("CONTACTCONTROLS", NUMERICS),
     harmless_card("GAPCONDUCTANCE", HEAT),
     harmless_card("GAPHEATGENERATION", HEAT),

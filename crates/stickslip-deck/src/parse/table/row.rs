@@ -1,11 +1,13 @@
 //! A row of the table: what becomes of a card, of its parameters and of its data.
 
 use crate::card::Card;
+use crate::parse::reader::Reader;
+use crate::parse::structure::Level;
 use crate::text::number;
 
 /// What becomes of a card or a parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Fate {
+pub enum Fate {
     /// It is read.
     Read,
     /// It is left out, as it cannot change the answer; why. A note says so.
@@ -18,7 +20,7 @@ pub(crate) enum Fate {
 
 /// What may stand in the data lines of a card.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Data {
+pub enum Data {
     /// Lists of any length, or lines that the parser judges.
     Any,
     /// Nothing.
@@ -31,18 +33,30 @@ pub(crate) enum Data {
 
 /// A parameter of a card.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Parameter {
+pub struct Parameter {
     /// In capitals, without blanks.
     pub name: &'static str,
     pub fate: Fate,
 }
 
+/// What reads a card.
+pub type Read = fn(&mut Reader<'_>, &Card);
+
 /// What becomes of a card.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Row {
+pub struct Row {
     /// In capitals, without blanks and star.
     pub keyword: &'static str,
     pub fate: Fate,
+    /// Of a card whose fate is to be read.
+    pub reader: Option<Read>,
+    pub level: Level,
+    /// Whether it stands beneath a material or an interaction.
+    pub beneath: bool,
+    /// Whether it is read in spite of errors: that what it names is missing would only be a second one.
+    pub kept: bool,
+    /// Whether it is a procedure of a step that is refused.
+    pub procedure: bool,
     pub data: Data,
     pub parameters: &'static [Parameter],
     /// What becomes of parameters that are not listed; they are errors if nothing is said.
@@ -50,22 +64,33 @@ pub(crate) struct Row {
 }
 
 impl Row {
-    /// Whether a parameter is listed.
-    pub fn lists(&self, name: &str) -> bool {
-        self.parameters.iter().any(|p| p.name == name)
+    /// The same at a level.
+    pub const fn at(mut self, level: Level) -> Row {
+        self.level = level;
+        self
     }
 
-    /// The parameter that begins with a name of at least four letters, where others that do only go on from it.
-    pub fn abbreviated(&self, name: &str) -> Option<&'static str> {
-        if name.len() < 4 || self.lists(name) {
-            return None;
-        }
-        let all = || {
-            let names = self.parameters.iter().map(|p| p.name);
-            names.filter(|n| n.starts_with(name))
-        };
-        let shortest = all().min_by_key(|n| n.len())?;
-        all().all(|n| n.starts_with(shortest)).then_some(shortest)
+    /// The same beneath a material or an interaction.
+    pub const fn beneath(mut self) -> Row {
+        self.beneath = true;
+        self
+    }
+
+    /// The same, read in spite of errors.
+    pub const fn kept(mut self) -> Row {
+        self.kept = true;
+        self
+    }
+
+    /// The same as a procedure.
+    pub const fn procedure(mut self) -> Row {
+        self.procedure = true;
+        self
+    }
+
+    /// The names of all parameters.
+    pub fn names(&self) -> Vec<&'static str> {
+        self.parameters.iter().map(|p| p.name).collect()
     }
 
     /// What becomes of a parameter; `None` if the card has no such parameter.
@@ -109,14 +134,29 @@ impl Data {
 /// A card that is read.
 pub(super) const fn card(
     keyword: &'static str,
+    reader: Read,
     data: Data,
     parameters: &'static [Parameter],
 ) -> Row {
     Row {
-        keyword,
-        fate: Fate::Read,
+        reader: Some(reader),
         data,
         parameters,
+        ..unread(keyword, Fate::Read)
+    }
+}
+
+const fn unread(keyword: &'static str, fate: Fate) -> Row {
+    Row {
+        keyword,
+        fate,
+        reader: None,
+        level: Level::Model,
+        beneath: false,
+        kept: false,
+        procedure: false,
+        data: Data::Any,
+        parameters: &[],
         others: None,
     }
 }
@@ -124,23 +164,14 @@ pub(super) const fn card(
 /// A card that is left out because of what it is about, whatever its parameters are.
 pub(super) const fn harmless_card(keyword: &'static str, why: &'static str) -> Row {
     Row {
-        keyword,
-        fate: Fate::Harmless(why),
-        data: Data::Any,
-        parameters: &[],
         others: Some(Fate::Harmless(why)),
+        ..unread(keyword, Fate::Harmless(why))
     }
 }
 
 /// A card that is refused.
 pub(super) const fn refused_card(keyword: &'static str, help: &'static str) -> Row {
-    Row {
-        keyword,
-        fate: Fate::Refused(help),
-        data: Data::Any,
-        parameters: &[],
-        others: None,
-    }
+    unread(keyword, Fate::Refused(help))
 }
 
 pub(super) const fn read(name: &'static str) -> Parameter {

@@ -1,4 +1,4 @@
-//! What becomes of every card of the format, of its parameters and of its data: one row a keyword.
+//! What becomes of every card of the format, of its parameters and of its data, where it may stand and what reads it: one row a keyword.
 //!
 //! Nothing is dropped without being here. A card or parameter is read, left out because it cannot change the answer (the row says why, and so does a
 //! note), or refused (the row says what to do); what is in no row is an error at its line. The parser asks for no parameter that its row does not
@@ -15,12 +15,12 @@ mod step;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use kinds::*;
+pub(super) use kinds::kind_of_card;
 use row::nearest_of;
-pub(crate) use row::{Fate, Row};
+pub(super) use row::{Fate, Row};
 
 /// All rows.
-pub(crate) fn rows() -> impl Iterator<Item = &'static Row> {
+pub(super) fn rows() -> impl Iterator<Item = &'static Row> {
     [
         mesh::ROWS,
         material::ROWS,
@@ -34,11 +34,11 @@ pub(crate) fn rows() -> impl Iterator<Item = &'static Row> {
 }
 
 /// The row of a keyword, in capitals without blanks.
-pub(crate) fn row(keyword: &str) -> Option<&'static Row> {
+pub(super) fn row(keyword: &str) -> Option<&'static Row> {
     rows().find(|r| r.keyword == keyword)
 }
 
 /// The keyword that is most like this one, if one is.
-pub(crate) fn nearest(keyword: &str) -> Option<&'static str> {
+pub(super) fn nearest(keyword: &str) -> Option<&'static str> {
     nearest_of(keyword, rows().map(|r| r.keyword))
 }

@@ -19,6 +19,7 @@ const ACCURACY: &str = "it controls the lengths of increments; those are sticksl
 pub(super) const ROWS: &[Row] = &[
     card(
         "STEP",
+        |r, c| r.step(c),
         Data::Any,
         &[
             read("NLGEOM"),
@@ -37,10 +38,11 @@ pub(super) const ROWS: &[Row] = &[
             harmless("CONVERTSDI", NUMERICS),
             read("PERTURBATION"),
         ],
-    ),
-    card("ENDSTEP", Data::Nothing, &[]),
+    ).kept(),
+    card("ENDSTEP", |r, c| r.end_step(c), Data::Nothing, &[]),
     card(
         "STATIC",
+        |r, c| r.statics(c),
         Data::Line("first increment, period, smallest increment, largest increment"),
         &[
             read("DIRECT"),
@@ -68,9 +70,10 @@ pub(super) const ROWS: &[Row] = &[
             refused("TIMERESET", ZERO),
             refused("TOTALTIMEATSTART", ZERO),
         ],
-    ),
+    ).kept(),
     card(
         "DYNAMIC",
+        |r, c| r.dynamics(c),
         Data::Line("first increment, period, smallest increment, largest increment"),
         &[
             read("DIRECT"),
@@ -97,9 +100,10 @@ pub(super) const ROWS: &[Row] = &[
             refused("SUBSPACE", "modal dynamics is not computed"),
             refused("ADIABATIC", "temperatures are not computed"),
         ],
-    ),
+    ).kept(),
     card(
         "FREQUENCY",
+        |r, c| r.frequency(c),
         Data::Any,
         &[
             idle("SOLVER", NUMERICS),
@@ -113,9 +117,10 @@ pub(super) const ROWS: &[Row] = &[
             refused("CYCMPC", CYCLIC),
             refused("ALPHA", CYCLIC),
         ],
-    ),
+    ).kept(),
     card(
         "COMPLEXFREQUENCY",
+        |r, c| r.complex_frequency(c),
         Data::Line("number of modes, lowest frequency, highest frequency, shift"),
         &[
             read("FRICTIONDAMPING"),
@@ -135,9 +140,10 @@ pub(super) const ROWS: &[Row] = &[
             refused("CORIOLIS", GYROSCOPIC),
             refused("FLUTTER", GYROSCOPIC),
         ],
-    ),
+    ).kept(),
     card(
         "STEADYSTATEDYNAMICS",
+        |r, c| r.steady_state(c),
         Data::Line("lowest frequency, highest frequency, number of points, bias"),
         &[
             read("INTERVAL"),
@@ -157,9 +163,10 @@ pub(super) const ROWS: &[Row] = &[
                 "stress does not stiffen bodies, as strains are small: leave NLGEOM out",
             ),
         ],
-    ),
+    ).kept(),
     card(
         "MODALDAMPING",
+        |r, c| r.modal_damping(c),
         Data::Any,
         &[
             read("RAYLEIGH"),
@@ -174,6 +181,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "MOTION",
+        |r, c| r.material_motion(c),
         Data::Any,
         &[
             read("ROTATION"),
@@ -193,6 +201,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "BOUNDARY",
+        |r, c| r.boundary(c),
         Data::Lines("node or set of nodes, first direction, last direction, value"),
         &[
             read("OP"),
@@ -212,6 +221,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "CLOAD",
+        |r, c| r.forces(c),
         Data::Lines("node or set of nodes, direction, force"),
         &[
             read("OP"),
@@ -232,6 +242,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "TEMPERATURE",
+        |r, c| r.temperature(c),
         Data::Lines("node or set of nodes, temperature"),
         &[
             read("OP"),
@@ -253,6 +264,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "DLOAD",
+        |r, c| r.distributed(c),
         Data::Lines("elements, kind, value, x, y, z, dx, dy, dz"),
         &[
             read("OP"),
@@ -276,6 +288,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "DSLOAD",
+        |r, c| r.surface_loads(c),
         Data::Lines("surface, kind, value"),
         &[
             read("OP"),
@@ -297,6 +310,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "RESTART",
+        |_, _| {},
         Data::Any,
         &[
             harmless(

@@ -3,6 +3,8 @@
 use super::row::{
     Data, Fate, INPUT, Row, SUBROUTINE, card, harmless, harmless_card, idle, read, refused,
 };
+use crate::deck::Way;
+use crate::parse::structure::Level;
 
 const IMPORT: &str =
     "results of other runs are not read: give the part, and its nodes and elements, in this deck";
@@ -10,14 +12,17 @@ const IMPORT: &str =
 pub(super) const ROWS: &[Row] = &[
     Row {
         others: Some(Fate::Idle("the title is a name")),
-        ..card("HEADING", Data::Any, &[])
+        ..card("HEADING", |r, c| r.heading(c), Data::Any, &[])
     },
-    card("PART", Data::Nothing, &[read("NAME")]),
-    card("ENDPART", Data::Nothing, &[]),
-    card("ASSEMBLY", Data::Nothing, &[read("NAME")]),
-    card("ENDASSEMBLY", Data::Nothing, &[]),
+    card("PART", |r, c| r.part(c), Data::Nothing, &[read("NAME")]).at(Level::Structure).kept(),
+    card("ENDPART", |r, c| r.end_part(c), Data::Nothing, &[]).at(Level::Structure).kept(),
+    card("ASSEMBLY", |r, c| r.assembly(c), Data::Nothing, &[read("NAME")])
+        .at(Level::Structure)
+        .kept(),
+    card("ENDASSEMBLY", |r, c| r.end_assembly(c), Data::Nothing, &[]).at(Level::Structure).kept(),
     card(
         "INSTANCE",
+        |r, c| r.instance(c),
         Data::Any,
         &[
             read("NAME"),
@@ -25,17 +30,19 @@ pub(super) const ROWS: &[Row] = &[
             refused("LIBRARY", IMPORT),
             refused("INSTANCE", IMPORT),
         ],
-    ),
-    card("ENDINSTANCE", Data::Nothing, &[]),
-    card("SYSTEM", Data::Lines("x, y, z, x, y, z"), &[]),
+    ).at(Level::Structure).kept(),
+    card("ENDINSTANCE", |r, c| r.end_instance(c), Data::Nothing, &[]).at(Level::Structure).kept(),
+    card("SYSTEM", |r, c| r.system(c), Data::Lines("x, y, z, x, y, z"), &[]).at(Level::Mesh),
     card(
         "NODE",
+        |r, c| r.nodes(c),
         // Directions of normals are for shells and beams.
         Data::Lines("node, x, y, z, normal x, normal y, normal z"),
         &[read("NSET"), read("SYSTEM"), INPUT],
-    ),
+    ).at(Level::Mesh).kept(),
     card(
         "ELEMENT",
+        |r, c| r.elements(c),
         Data::Any,
         &[
             read("TYPE"),
@@ -47,16 +54,18 @@ pub(super) const ROWS: &[Row] = &[
             refused("OFFSET", "write the numbers of the nodes out"),
             INPUT,
         ],
-    ),
+    ).at(Level::Mesh).kept(),
     card(
         "NGEN",
+        |r, c| r.generate_nodes(c),
         Data::Lines(
             "first node, last node, increment, node of the curve, x, y, z, normal x, normal y, normal z",
         ),
         &[read("NSET"), read("LINE"), read("SYSTEM")],
-    ),
+    ).at(Level::Mesh).kept(),
     card(
         "NFILL",
+        |r, c| r.fill_nodes(c),
         Data::Lines("first set, second set, number of intervals, increment"),
         &[
             read("NSET"),
@@ -67,9 +76,10 @@ pub(super) const ROWS: &[Row] = &[
                 "elements at the tip of a crack are as others are: leave it out",
             ),
         ],
-    ),
+    ).at(Level::Mesh).kept(),
     card(
         "NCOPY",
+        |r, c| r.copy_nodes(c),
         Data::Lines("x, y, z, x, y, z, angle"),
         &[
             read("OLDSET"),
@@ -86,9 +96,10 @@ pub(super) const ROWS: &[Row] = &[
                 "write the whole angle, or one *NCOPY after another",
             ),
         ],
-    ),
+    ).at(Level::Mesh).kept(),
     card(
         "ELGEN",
+        |r, c| r.generate_elements(c),
         Data::Lines(
             "element, number in a row, increment of nodes, increment of elements, rows, increment of nodes, increment of elements, layers, increment of nodes, increment of elements",
         ),
@@ -96,9 +107,10 @@ pub(super) const ROWS: &[Row] = &[
             read("ELSET"),
             idle("ALLNODES", "it is of nodes of rigid surfaces and of beams"),
         ],
-    ),
+    ).at(Level::Mesh).kept(),
     card(
         "ELCOPY",
+        |r, c| r.copy_elements(c),
         Data::Nothing,
         &[
             read("OLDSET"),
@@ -107,9 +119,10 @@ pub(super) const ROWS: &[Row] = &[
             read("SHIFTNODES"),
             read("REFLECT"),
         ],
-    ),
+    ).at(Level::Mesh).kept(),
     card(
         "NSET",
+        |r, c| r.node_set(c),
         Data::Any,
         &[
             read("NSET"),
@@ -124,9 +137,10 @@ pub(super) const ROWS: &[Row] = &[
             read("INSTANCE"),
             INPUT,
         ],
-    ),
+    ).at(Level::Mesh).kept(),
     card(
         "ELSET",
+        |r, c| r.element_set(c),
         Data::Any,
         &[
             read("ELSET"),
@@ -136,9 +150,10 @@ pub(super) const ROWS: &[Row] = &[
             read("INSTANCE"),
             INPUT,
         ],
-    ),
+    ).at(Level::Mesh).kept(),
     card(
         "SURFACE",
+        |r, c| r.surface(c),
         Data::Lines("element or set of elements or node, face"),
         &[
             read("NAME"),
@@ -152,23 +167,26 @@ pub(super) const ROWS: &[Row] = &[
                 "it is of surfaces that sections of shells smooth",
             ),
         ],
-    ),
+    ).at(Level::Mesh).kept(),
     card(
         "TRANSFORM",
+        |r, c| r.transform(c),
         Data::Line("ax, ay, az, bx, by, bz"),
         &[read("NSET"), read("TYPE")],
-    ),
+    ).at(Level::Mesh),
     harmless_card(
         "PHYSICALCONSTANTS",
         "neither radiation nor gravitation between bodies is computed; both are refused where they are asked for",
     ),
     card(
         "EQUATION",
+        |r, c| r.equation(c),
         Data::Any,
         &[read("REMOVE"), read("REMOVEALL"), INPUT],
-    ),
+    ).at(Level::Mesh),
     card(
         "RIGIDBODY",
+        |r, c| r.rigid_body(c),
         Data::Nothing,
         &[
             read("NSET"),
@@ -190,9 +208,10 @@ pub(super) const ROWS: &[Row] = &[
                 "write a stickslip problem file, which has obstacles (plane, cylinder, sphere)",
             ),
         ],
-    ),
+    ).at(Level::Mesh),
     card(
         "PRE-TENSIONSECTION",
+        |r, c| r.pretension(c),
         Data::Line("nx, ny, nz"),
         &[
             read("SURFACE"),
@@ -202,9 +221,10 @@ pub(super) const ROWS: &[Row] = &[
                 "only sections through solid and plane elements are drawn together: name their faces by SURFACE",
             ),
         ],
-    ),
+    ).at(Level::Mesh),
     card(
         "COUPLING",
+        |r, c| r.coupling(c),
         Data::Nothing,
         &[
             read("CONSTRAINTNAME"),
@@ -217,41 +237,47 @@ pub(super) const ROWS: &[Row] = &[
             ),
             refused("ALPHA", "couplings have no damping"),
         ],
-    ),
+    ).at(Level::Mesh),
     card(
         "KINEMATIC",
+        |r, c| r.way(c, Way::Kinematic),
         Data::Lines("first direction, last direction"),
         &[],
-    ),
+    ).at(Level::Mesh),
     card(
         "DISTRIBUTING",
+        |r, c| r.way(c, Way::Distributing),
         Data::Lines("first direction, last direction"),
         &[
             read("WEIGHTINGMETHOD"),
             refused("COUPLING", "moments are spread as those of a continuum are"),
         ],
-    ),
+    ).at(Level::Mesh),
     card(
         "KINEMATICCOUPLING",
+        |r, c| r.kinematic_coupling(c),
         Data::Lines("node or set of nodes, first direction, last direction"),
         &[read("REFNODE"), read("ORIENTATION")],
-    ),
+    ).at(Level::Mesh),
     card(
         "DISTRIBUTINGCOUPLING",
+        |r, c| r.distributing_coupling(c),
         Data::Lines("node or set of nodes, weight"),
         &[read("ELSET")],
-    ),
+    ).at(Level::Mesh),
     card(
         "MPC",
+        |r, c| r.multi_point(c),
         Data::Any,
         &[
             refused("USER", SUBROUTINE),
             refused("MODE", SUBROUTINE),
             INPUT,
         ],
-    ),
+    ).at(Level::Mesh),
     card(
         "SPRING",
+        |r, c| r.spring(c),
         Data::Any,
         &[
             read("ELSET"),
@@ -263,9 +289,10 @@ pub(super) const ROWS: &[Row] = &[
             refused("COMPLEXSTIFFNESS", "springs are elastic"),
             refused("RTOL", "springs are linear: give one stiffness"),
         ],
-    ),
+    ).at(Level::Mesh),
     card(
         "DASHPOT",
+        |r, c| r.spring(c),
         Data::Any,
         &[
             read("ELSET"),
@@ -276,14 +303,16 @@ pub(super) const ROWS: &[Row] = &[
             refused("NONLINEAR", "dashpots are linear: give one coefficient"),
             refused("RTOL", "dashpots are linear: give one coefficient"),
         ],
-    ),
+    ).at(Level::Mesh),
     card(
         "GAP",
+        |r, c| r.gap(c),
         Data::Line("clearance, x, y, z, area, stiffness, tension"),
         &[read("ELSET")],
-    ),
+    ).at(Level::Mesh),
     card(
         "MASS",
+        |r, c| r.mass(c),
         Data::Line("mass"),
         &[
             read("ELSET"),
@@ -292,9 +321,10 @@ pub(super) const ROWS: &[Row] = &[
             refused("TYPE", "masses are the same in all directions"),
             refused("ORIENTATION", "masses are the same in all directions"),
         ],
-    ),
+    ).at(Level::Mesh),
     card(
         "INITIALCONDITIONS",
+        |r, c| r.initial_conditions(c),
         Data::Lines("node or set of nodes, direction or temperature, value"),
         &[
             read("TYPE"),
@@ -316,6 +346,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "AMPLITUDE",
+        |r, c| r.amplitude(c),
         Data::Any,
         &[
             read("NAME"),
@@ -330,11 +361,12 @@ pub(super) const ROWS: &[Row] = &[
             refused("BEGIN", "write the times out"),
             INPUT,
         ],
-    ),
+    ).kept(),
     card(
         "TIMEPOINTS",
+        |r, c| r.time_points(c),
         Data::Any,
         &[read("NAME"), read("GENERATE"), read("TIME")],
     ),
-    card("NORMAL", Data::Any, &[read("TYPE")]),
+    card("NORMAL", |r, c| r.normal(c), Data::Any, &[read("TYPE")]).at(Level::Mesh),
 ];

@@ -1,6 +1,7 @@
 //! Materials and sections.
 
 use super::row::{Data, Row, SUBROUTINE, card, harmless, harmless_card, idle, read, refused};
+use crate::parse::structure::Level;
 
 const HEAT: &str = "temperatures are given, not computed: heat does not flow";
 const CONSTANT: &str = "constants depend on temperature only";
@@ -8,6 +9,7 @@ const CONSTANT: &str = "constants depend on temperature only";
 pub(super) const ROWS: &[Row] = &[
     card(
         "MATERIAL",
+        |r, c| r.material(c),
         Data::Nothing,
         &[
             read("NAME"),
@@ -17,9 +19,11 @@ pub(super) const ROWS: &[Row] = &[
             ),
             refused("RTOL", "give elastic constants"),
         ],
-    ),
+    )
+    .kept(),
     card(
         "ELASTIC",
+        |r, c| r.elastic(c),
         Data::Any,
         &[
             read("TYPE"),
@@ -29,14 +33,18 @@ pub(super) const ROWS: &[Row] = &[
             ),
             refused("DEPENDENCIES", CONSTANT),
         ],
-    ),
+    )
+    .beneath(),
     card(
         "DENSITY",
+        |r, c| r.density(c),
         Data::Lines("density, temperature"),
         &[refused("DEPENDENCIES", CONSTANT)],
-    ),
+    )
+    .beneath(),
     card(
         "DAMPING",
+        |r, c| r.damping(c),
         Data::Nothing,
         &[
             read("ALPHA"),
@@ -47,9 +55,11 @@ pub(super) const ROWS: &[Row] = &[
             ),
             harmless("COMPOSITE", "it acts on modes, which are not computed"),
         ],
-    ),
+    )
+    .beneath(),
     card(
         "EXPANSION",
+        |r, c| r.expansion(c),
         Data::Any,
         &[
             read("TYPE"),
@@ -58,7 +68,8 @@ pub(super) const ROWS: &[Row] = &[
             refused("USER", SUBROUTINE),
             refused("PORE", "fluids in pores are not computed"),
         ],
-    ),
+    )
+    .beneath(),
     harmless_card("CONDUCTIVITY", HEAT),
     harmless_card("SPECIFICHEAT", HEAT),
     harmless_card("LATENTHEAT", HEAT),
@@ -82,6 +93,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "SOLIDSECTION",
+        |r, c| r.solid_section(c),
         Data::Line("thickness"),
         &[
             read("ELSET"),
@@ -120,7 +132,8 @@ pub(super) const ROWS: &[Row] = &[
                 "give each layer elements and a *SOLID SECTION of its own",
             ),
         ],
-    ),
+    )
+    .at(Level::Mesh),
     harmless_card(
         "SECTIONCONTROLS",
         "elements under reduced integration have stickslip's own hourglass control",
@@ -131,16 +144,25 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "DISTRIBUTION",
+        |r, c| r.distribution(c),
         Data::Any,
         &[
             read("NAME"),
             read("LOCATION"),
             idle("TABLE", "*DISTRIBUTION TABLE is held against what is read"),
         ],
-    ),
-    card("DISTRIBUTIONTABLE", Data::Any, &[read("NAME")]),
+    )
+    .at(Level::Mesh),
+    card(
+        "DISTRIBUTIONTABLE",
+        |r, c| r.distribution_table(c),
+        Data::Any,
+        &[read("NAME")],
+    )
+    .at(Level::Mesh),
     card(
         "ORIENTATION",
+        |r, c| r.orientation(c),
         Data::Lines("ax, ay, az, bx, by, bz, cx, cy, cz"),
         &[
             read("NAME"),
@@ -148,5 +170,6 @@ pub(super) const ROWS: &[Row] = &[
             read("DEFINITION"),
             refused("LOCALDIRECTIONS", "give the axes of a rectangular system"),
         ],
-    ),
+    )
+    .at(Level::Mesh),
 ];

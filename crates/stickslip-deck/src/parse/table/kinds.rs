@@ -1,18 +1,12 @@
 //! Cards that are refused for one reason, as a kind of things.
 
 use super::refused::{HEAT as HEAT_HELP, LAW, TIME};
-
-pub(crate) const SHELLS: &str = "shells";
-pub(crate) const BEAMS: &str = "beams";
-pub(crate) const MEMBRANES: &str = "membranes";
-pub(crate) const NETWORKS: &str = "networks of flows";
-pub(crate) const CONNECTORS: &str = "connectors";
-pub(crate) const COHESIVE: &str = "cohesive elements";
-pub(crate) const USER_ELEMENTS: &str = "elements of the user";
-pub(crate) const HEAT: &str = "temperatures by heat transfer";
+use crate::parse::uncomputed::{
+    BEAMS, COHESIVE, CONNECTORS, HEAT, MEMBRANES, NETWORKS, SHELLS, USER_ELEMENTS,
+};
 
 /// The kind of a refused card, in the plural, from what it is about, or from the help that it has in common with others.
-pub(crate) fn kind_of_card(keyword: &str, help: &str) -> Option<&'static str> {
+pub fn kind_of_card(keyword: &str, help: &str) -> Option<&'static str> {
     Some(match keyword {
         "SHELLSECTION" | "SHELLGENERALSECTION" | "NODALTHICKNESS" | "SHELLTOSOLIDCOUPLING" => {
             SHELLS

@@ -10,17 +10,15 @@ const WHEN: &[Parameter] = &[read("FREQUENCY"), read("FREQUENCYF"), read("TIMEPO
 /// A card that asks for fields: which and when is read; they are written of the whole model.
 const fn fields(keyword: &'static str) -> Row {
     Row {
-        keyword,
-        fate: Fate::Read,
-        data: Data::Any,
-        parameters: WHEN,
         others: Some(Fate::Idle(VIEW)),
+        ..card(keyword, |r, c| r.output(c), Data::Any, WHEN)
     }
 }
 
 pub(super) const ROWS: &[Row] = &[
     card(
         "NODEPRINT",
+        |r, c| r.print(c),
         Data::Any,
         &[
             read("NSET"),
@@ -34,6 +32,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "ELPRINT",
+        |r, c| r.print(c),
         Data::Any,
         &[
             read("ELSET"),
@@ -51,6 +50,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "CONTACTPRINT",
+        |r, c| r.print(c),
         Data::Any,
         &[
             read("SLAVE"),
@@ -74,6 +74,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "SECTIONPRINT",
+        |r, c| r.section_print(c),
         Data::Any,
         &[
             read("SURFACE"),
