@@ -1,0 +1,61 @@
+//! Words of the field: identifiers that only this program used, each with what textbooks say. They are refused.
+
+use super::tokens::tokens;
+
+/// Identifiers that are refused, and what to write instead.
+const REFUSED: &[(&str, &str)] = &[
+    ("Bare", "Undivided"),
+    ("CurvedBulk", "NonlinearBulk"),
+    ("Flips", "StatusHistory"),
+    ("Follower", "DependentNode"),
+    ("Guilty", "Suspect"),
+    ("Hollows", "NodalWear"),
+    ("Meeting", "TimeOfImpact"),
+    ("Ordered", "Analysed"),
+    ("PointAlone", "StickTrial"),
+    ("Rub", "FrictionTerms"),
+    ("Scar", "WearProfile"),
+    ("Sight", "InertialFrame"),
+    ("Spinning", "IncrementalRotation"),
+    ("Spread", "DistributedOperator"),
+    ("Standing", "StepProgress"),
+    ("Trying", "CycleBlockTrial"),
+    ("Unjoined", "MissingInterface"),
+    ("Voice", "ProgressPrinter"),
+    ("Working", "AttemptState"),
+    ("adopt_forces", "set_multipliers"),
+    ("ask_first", "check_model"),
+    ("come_to_rest", "end_dynamics"),
+    ("enter_here", "an argument"),
+    ("forget_direction", "reset_predictor"),
+    ("goes_to_and_fro", "oscillates"),
+    ("hold_axles", "damp_axles"),
+    ("hold_back", "levenberg_marquardt_damping"),
+    ("hollow", "wear_gap"),
+    ("hollow_out", "add_nodal_wear"),
+    ("into_axes", "to_body_axes"),
+    ("judge_friction", "friction_error"),
+    ("lay_out", "layout_of"),
+    ("lend", "an argument"),
+    ("moved_over", "relative_slip"),
+    ("never_in_contact", "before_first_contact"),
+    ("passes_through", "undetected penetration"),
+    ("points_alone", "stick_trials"),
+    ("put_out", "write_fields"),
+    ("see_rate", "use_end_velocity"),
+    ("see_steady", "use_steady_velocity"),
+    ("softness", "wear_compliance"),
+    ("stranded", "off_edge"),
+    ("vain", "no_progress"),
+    ("wears_off", "wear_increment"),
+];
+
+/// The refused identifiers of a file: `LINE: WORD: INSTEAD`.
+pub fn refused(text: &str) -> Vec<String> {
+    let (all, _) = tokens(text);
+    let found = all.iter().filter_map(|token| {
+        let (word, instead) = REFUSED.iter().find(|(word, _)| *word == token.text)?;
+        Some(format!("{}: `{word}`: {instead}", token.line))
+    });
+    found.collect()
+}
