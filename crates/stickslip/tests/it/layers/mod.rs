@@ -69,7 +69,6 @@ const CIRCULAR: &[&str] = &[
     "body::elastic::Elastic",
     "integrate::implicit::Implicit",
     "parse::reader::Reader",
-    "run::simulation::Simulation",
     "solve::solver::Solver",
 ];
 
@@ -100,8 +99,6 @@ const SPREAD: &[(&str, usize)] = &[
     ("problem::document::Document", 2),
     ("problem::expected::Expected", 2),
     ("results::Results", 2),
-    ("run::position::Increments", 2),
-    ("run::simulation::Simulation", 10),
     ("solve::condenser::Condensed", 2),
     ("solve::floating_bodies::Floating", 2),
     ("solve::solver::Solver", 10),

@@ -4,17 +4,17 @@ use super::checkpoint::Checkpoint;
 use crate::results::history::Row;
 
 /// The block at hand, or two that are judged together: where they began, and what is to be told when they are over.
-pub(super) struct Trying {
+pub(super) struct CycleBlock {
     pub start: Checkpoint,
     pub rows: Vec<Row>,
     pub cycles: Vec<Row>,
     pub fields: bool,
 }
 
-impl Trying {
+impl CycleBlock {
     /// A block that begins.
     pub fn from(start: Checkpoint) -> Self {
-        Trying {
+        CycleBlock {
             start,
             rows: Vec::new(),
             cycles: Vec::new(),
