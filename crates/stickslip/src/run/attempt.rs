@@ -61,17 +61,10 @@ pub(super) fn attempt(
     trial: Trial,
     observers: &mut [&mut dyn Observer],
 ) -> Result<Result<Accepted, StepFailure>, Error> {
-    let Run {
-        model,
-        contact,
-        frame,
-        solver,
-        integration,
-        ..
-    } = run;
-    solver.seen.clear();
-    let integrator = integration.as_dyn_mut();
-    let outcome = integrator.attempt(model, frame, contact, solver, trial);
+    run.solver.seen.clear();
+    let (contact, solver) = (&mut run.contact, &mut run.solver);
+    let integrator = run.integration.as_dyn_mut();
+    let outcome = integrator.attempt(&run.model, &run.frame, contact, solver, trial);
     // Of increments that wait for their interiors it is told with them.
     if run.solver.condenser.at_rest().is_none() {
         let seen = run.solver.seen.take();

@@ -19,14 +19,12 @@ pub(super) fn go_back(
         increment,
         failure,
     } = taken;
-    if try_block_again(run)? {
-        run.solver.floating.forget();
-        return solve_sparsely(run, &failure, observers);
+    if !try_block_again(run)? {
+        let mut running = Increments::of(run.step());
+        running.stepper.again(trial.from, trial.to - trial.from);
+        running.accepted = increment - 1;
+        run.steps.running = Some(running);
     }
-    let mut running = Increments::of(run.step());
-    running.stepper.again(trial.from, trial.to - trial.from);
-    running.accepted = increment - 1;
-    run.steps.running = Some(running);
     run.solver.floating.forget();
     solve_sparsely(run, &failure, observers)
 }
@@ -47,13 +45,6 @@ pub(super) fn solve_sparsely(
     observers: &mut [&mut dyn Observer],
 ) -> Result<(), Error> {
     run.reset_predictor();
-    let Run {
-        model,
-        contact,
-        frame,
-        solver,
-        ..
-    } = run;
-    solver.give_condensing_up(model, frame, contact, &failure.message);
+    (run.solver).give_condensing_up(&run.model, &run.frame, &mut run.contact, &failure.message);
     run.tell_notes(observers)
 }

@@ -70,16 +70,10 @@ pub(super) fn anchors_again(
         return Ok(false);
     }
     flush(run, observers)?;
-    let Run {
-        model,
-        contact,
-        frame,
-        solver,
-        ..
-    } = run;
+    let (model, frame, contact) = (&run.model, &mut run.frame, &mut run.contact);
     match stiffer {
-        true => solver.anchor(model, frame, contact, trial),
-        false => solver.follow(model, frame, contact, trial),
+        true => run.solver.anchor(model, frame, contact, trial),
+        false => run.solver.follow(model, frame, contact, trial),
     }
     run.tell_notes(observers)?;
     Ok(true)

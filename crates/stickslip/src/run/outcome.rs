@@ -7,7 +7,7 @@ use super::floating::anchors_again;
 use super::parts::Run;
 use super::pending::{commit, flush, recover_pending};
 use super::position::Increments;
-use super::queue::{Due, Failed, Pending};
+use super::queue::{Failed, Pending};
 use crate::error::Error;
 use crate::results::observer::{Event, Observer};
 use crate::solve::accepted::Accepted;
@@ -34,13 +34,17 @@ pub(super) fn accept(
     let last = running.stepper.next().is_none();
     let due = last || plan.times.contains(&trial.to) || increment.is_multiple_of(plan.every);
     let row = due || increment.is_multiple_of(plan.history_every);
-    let pending = Pending::new(
+    let pending = Pending {
         trial,
         accepted,
         increment,
-        running.attempt,
-        Due { fields: due, row },
-    );
+        attempt: running.attempt,
+        fields: due,
+        row,
+        seen: Vec::new(),
+        after: None,
+        found: None,
+    };
     if pending.row {
         let advance = pending.advance();
         run.tell(observers, || Event::Accepted(&advance))?;

@@ -113,14 +113,8 @@ fn complete(run: &mut Run, one: &mut Pending) -> Result<(), StepFailure> {
     let (Some(found), Some(after)) = (&one.found, &one.after) else {
         return Ok(());
     };
-    let Run {
-        model,
-        contact,
-        frame,
-        solver,
-        ..
-    } = run;
-    solver.complete(model, frame, contact, after, found, &mut one.accepted)
+    let (model, frame, contact) = (&run.model, &mut run.frame, &mut run.contact);
+    (run.solver).complete(model, frame, contact, after, found, &mut one.accepted)
 }
 
 /// Enters an increment into the ledger and tells the observers.
@@ -130,14 +124,8 @@ fn report(
     observers: &mut [&mut dyn Observer],
 ) -> Result<(), Error> {
     run.tell_iterations(&pending.seen, observers);
-    let Run {
-        model,
-        contact,
-        frame,
-        summary,
-        ..
-    } = run;
-    let effort = record(model, contact, frame, summary, pending.accepted);
+    let (frame, summary) = (&mut run.frame, &mut run.summary);
+    let effort = record(&run.model, &run.contact, frame, summary, pending.accepted);
     let started = Instant::now();
     if pending.row {
         let row = history::row(
@@ -152,7 +140,10 @@ fn report(
         run.summary.last = named.collect();
         judge(run);
         match &mut run.block {
-            Some(block) => block.hold(row, pending.fields),
+            Some(block) => {
+                block.rows.push(row);
+                block.fields |= pending.fields;
+            }
             None => run.tell(observers, || Event::Increment(&row))?,
         }
     }
@@ -164,7 +155,7 @@ fn report(
         fatigue::add_columns(&mut row, &worst, run.model.dofs.dim);
         run.summary.fatigue = worst;
         match &mut run.block {
-            Some(block) => block.hold_cycle(row),
+            Some(block) => block.cycles.push(row),
             None => run.tell(observers, || Event::Cycle(&row))?,
         }
     }

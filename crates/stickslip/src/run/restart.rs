@@ -75,12 +75,6 @@ pub(super) fn go_back_to(run: &mut Run, checkpoint: Checkpoint) -> Result<(), Er
         loops,
         working,
     } = checkpoint;
-    let Run {
-        model,
-        contact,
-        solver,
-        ..
-    } = run;
     // Of increments that wait the frame knows nothing yet.
     let waiting = pending.last().is_some_and(|p| p.found.is_some());
     let condensed = working.solver.condensed_displacements();
@@ -92,14 +86,16 @@ pub(super) fn go_back_to(run: &mut Run, checkpoint: Checkpoint) -> Result<(), Er
     let ahead = pending.last().or(ahead).and_then(|p| p.after.clone());
     let contacts = ahead.as_ref().unwrap_or(&frame.contacts);
     let histories = contacts.interfaces.iter().zip(working.interfaces);
-    let all = contact.interfaces.iter_mut().zip(histories);
-    solver.conditions = all
+    let all = run.contact.interfaces.iter_mut().zip(histories);
+    run.solver.conditions = all
         .map(|(interface, (history, memory))| remember(interface, history, memory, &u))
         .collect();
-    contact.couplings.go_on_from(working.couplings);
+    run.contact.couplings.go_on_from(working.couplings);
     let t = frame.state.t;
-    (solver.go_on_from(working.solver, model, &frame, contact)).map_err(|e| e.at(t))?;
-    solver.condenser.go_ahead(ahead);
+    let (model, contact) = (&run.model, &mut run.contact);
+    let again = (run.solver).go_on_from(working.solver, model, &frame, contact);
+    again.map_err(|e| e.at(t))?;
+    run.solver.condenser.go_ahead(ahead);
     run.integration = integration(&run.model, frame.step, working.explicit);
     run.steps = Steps {
         begun: true,
