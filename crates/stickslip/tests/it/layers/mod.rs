@@ -64,13 +64,7 @@ const LIBRARY: &[(&str, &[&[&str]])] = &[
 const NUMBERS: &[&str] = &["math", "references", "registry"];
 
 /// Types whose files still call each other in circles: the list may only become shorter.
-const CIRCULAR: &[&str] = &[
-    "assess::view::View",
-    "body::elastic::Elastic",
-    "integrate::implicit::Implicit",
-    "parse::reader::Reader",
-    "solve::solver::Solver",
-];
+const CIRCULAR: &[&str] = &["parse::reader::Reader"];
 
 /// Types with methods in more than one file, and in how many: the list may only become shorter.
 const SPREAD: &[(&str, usize)] = &[
@@ -84,7 +78,7 @@ const SPREAD: &[(&str, usize)] = &[
     ("deck::Deck", 3),
     ("friction::problem::FrictionProblem", 2),
     ("integrate::explicit::Explicit", 2),
-    ("integrate::implicit::Implicit", 3),
+    ("integrate::implicit::Implicit", 2),
     ("linear::engine::mumps::body::Body", 3),
     ("linear::multifrontal::numeric::PartialFactor", 3),
     ("mesh::Mesh", 6),
