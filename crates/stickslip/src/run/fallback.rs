@@ -45,6 +45,6 @@ pub(super) fn solve_sparsely(
     observers: &mut [&mut dyn Observer],
 ) -> Result<(), Error> {
     run.reset_predictor();
-    (run.solver).give_condensing_up(&run.model, &run.frame, &mut run.contact, &failure.message);
+    (run.solver).give_condensing_up(&run.model, &run.frame, &run.contact, &failure.message);
     run.tell_notes(observers)
 }
