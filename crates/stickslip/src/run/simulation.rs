@@ -110,7 +110,7 @@ impl Simulation {
 
     /// Goes on by at most one increment that is reported; `false` at the end. [`Simulation::run`] is a loop over this, and gives the same bits.
     ///
-    /// After it returns, [`Simulation::frame`] is that of the increment reported last. Not every call reports one: a step may begin, an
+    /// After it returns, [`Run::frame`] is that of the increment reported last. Not every call reports one: a step may begin, an
     /// increment may fail, and increments of condensed bodies are found together. Where bodies that only contact can hold are moved,
     /// several may be reported by one call.
     ///
