@@ -220,10 +220,10 @@ impl Simulation {
     fn values(&mut self, quantity: Quantity) -> &mut Vec<f64> {
         let simulation = &mut self.simulation;
         match quantity {
-            Quantity::Displacement => &mut simulation.frame.state.u,
-            Quantity::Velocity => &mut simulation.frame.state.v,
-            Quantity::Acceleration => &mut simulation.frame.state.a,
-            Quantity::Forces => &mut simulation.frame.forces,
+            Quantity::Displacement => &mut simulation.run.frame.state.u,
+            Quantity::Velocity => &mut simulation.run.frame.state.v,
+            Quantity::Acceleration => &mut simulation.run.frame.state.a,
+            Quantity::Forces => &mut simulation.run.frame.forces,
         }
     }
 

@@ -142,7 +142,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let read = started.elapsed().as_secs_f64();
     let library = library(Library::small_limit(), arguments.cache.as_deref())?;
     let mut simulation = Simulation::with_library(setup, library)?;
-    simulation.summary.cost.phases.read = read;
+    simulation.run.summary.cost.phases.read = read;
     if let Some(warning) = crate::space::warning(&simulation.sizes(), &directory) {
         crate::progress::say(&sentence(&warning));
     }

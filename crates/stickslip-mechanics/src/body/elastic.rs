@@ -16,7 +16,7 @@ use crate::error::Diagnostic;
 use crate::linear::{BlockCsr, Digest};
 use crate::material::{Dilation, Stiffness, constrained_modulus, plane_stress};
 use crate::mesh::{Block, Mesh};
-use crate::system::{Fields, State};
+use crate::system::Dofs;
 
 /// A block of cells and what it is made of.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -184,6 +184,13 @@ impl Elastic {
     /// Its points, ascending.
     pub fn points(&self) -> &[usize] {
         &self.points
+    }
+
+    pub(super) fn dofs(&self) -> Dofs {
+        Dofs {
+            dim: self.space.dim(),
+            points: self.mesh.points.len(),
+        }
     }
 
     /// The largest stiffness against strain in one direction alone `[Pa]` in the cells of `block`, as the material acts
@@ -367,10 +374,5 @@ impl Elastic {
     /// Adds the stiffness of all cells `[N/m]`.
     pub fn stiffness(&self, matrix: &mut BlockCsr) {
         self.element_matrices(&mut |points, dense| matrix.add_group(points, dense));
-    }
-
-    /// Adds stresses and strains at a state.
-    pub fn fields(&self, state: &State, out: &mut Fields) {
-        self.add_fields(state, out);
     }
 }

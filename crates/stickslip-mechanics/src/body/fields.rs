@@ -152,7 +152,7 @@ impl Elastic {
     /// `[J/m³]`) and `ELSE` (cells, strain energy `[J]`).
     ///
     /// `MISES` is that of the averaged stress. Other bodies' points and cells keep what is there, zero at first.
-    pub(super) fn add_fields(&self, state: &State, out: &mut Fields) {
+    pub fn fields(&self, state: &State, out: &mut Fields) {
         let Recovery { stress, cells } = self.recovery(state.into());
         let count = self.mesh.points.len();
         let s = out.shared("S", Location::Point, 6, count, 0.0);

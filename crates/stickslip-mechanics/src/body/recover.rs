@@ -10,7 +10,7 @@ use super::waves::in_order;
 use super::{Elastic, Space, hourglass};
 use crate::material::Stiffness;
 use crate::mesh::CellRef;
-use crate::system::{Dofs, State};
+use crate::system::State;
 
 /// The state of one quadrature point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -317,13 +317,6 @@ fn shift(v: &mut [f64; 6], to: f64) {
 }
 
 impl Elastic {
-    pub(super) fn dofs(&self) -> Dofs {
-        Dofs {
-            dim: self.space.dim(),
-            points: self.mesh.points.len(),
-        }
-    }
-
     pub(super) fn medium<const N: usize>(&self, part: usize) -> Medium<N> {
         let kind = self.mesh.blocks[self.parts[part].block].kind;
         Medium::new(kind, self.space, self.formulation, &self.acting[part])

@@ -220,13 +220,6 @@ fn ratio(value: f64, scale: f64) -> f64 {
 }
 
 impl View<'_> {
-    /// Elastic energy of bodies and compliant interfaces `[J]`.
-    pub(super) fn elastic_energy(&self) -> f64 {
-        let interfaces = self.contacts();
-        let compliant = interfaces.map(|i| look::law_energy(i)).sum::<f64>();
-        self.frame.ledger.strain + compliant
-    }
-
     /// The energy that may be nothing but rounding of the strains `[J]`.
     fn rounded_energy(&self) -> f64 {
         let moved = self.farthest();

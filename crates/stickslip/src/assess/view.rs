@@ -1,5 +1,6 @@
 //! An analysis between two increments, as those see it who only look.
 
+use crate::contact::look;
 use crate::integrate::explicit::Explicit;
 use crate::model::scene::Scene;
 use crate::solve::inertia::Inertia;
@@ -53,5 +54,12 @@ impl<'a> View<'a> {
     pub(crate) fn inertia(&self) -> Option<&'a Inertia> {
         let moves = self.step().is_some_and(|s| s.dynamic.is_some());
         (moves && self.explicit.is_none()).then_some(self.solver.inertia.as_ref())?
+    }
+
+    /// Elastic energy of bodies and compliant interfaces `[J]`.
+    pub(super) fn elastic_energy(&self) -> f64 {
+        let interfaces = self.contacts();
+        let compliant = interfaces.map(|i| look::law_energy(i)).sum::<f64>();
+        self.frame.ledger.strain + compliant
     }
 }

@@ -3,7 +3,7 @@
 use super::impulse::{is_impulse, kicked, stop};
 use super::integrator::Integrator;
 use super::quasi_static::pairs;
-use super::sight::{Acting, Ended};
+use super::sight::{Acting, Ended, Sight, in_space};
 use crate::contact::look;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -113,6 +113,31 @@ impl Integrator for Implicit {
 }
 
 impl Implicit {
+    /// Tries an increment in which bodies turn freely.
+    fn turning(
+        &self,
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+        solver: &mut Solver,
+        trial: Trial,
+    ) -> Result<Accepted, StepFailure> {
+        let way = (1.0 - self.alphas.alpha_f) * (trial.to - trial.from);
+        let sight = Sight::new(model, frame, way);
+        let inside = sight.inside(model);
+        let mut external = Vec::new();
+        sight.load(model, &inside.state.u, trial.to, &mut external);
+        let constraints = sight.constraints(model, trial.to);
+        let outlook = sight.outlook();
+        let acting = Acting {
+            constraints,
+            external,
+            sight: Some(sight),
+        };
+        let found = self.increment(model, &inside, acting, contact, solver, trial);
+        found.map(|accepted| in_space(model, &outlook, accepted))
+    }
+
     /// Tries an increment between states along the same axes.
     pub(super) fn increment(
         &self,

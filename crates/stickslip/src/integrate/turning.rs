@@ -4,9 +4,9 @@
 //! end, as the pass before has left it. The matrix, factored once for the whole analysis, is a good derivative there, but none of what bodies resist with: forces are found
 //! again where the increment has ended, and it is solved again from there until they balance.
 
-use super::implicit::{Implicit, difference};
+use super::implicit::difference;
 use super::quasi_static::{QuasiStatic, pairs};
-use super::sight::{Acting, Ended, Sight, in_space};
+use super::sight::{Ended, Sight, in_space};
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
@@ -17,33 +17,6 @@ use crate::solve::iteration::{Load, Task};
 use crate::solve::solver::Solver;
 use crate::system::{State, StepFailure};
 use crate::time::Trial;
-
-impl Implicit {
-    /// Tries an increment in which bodies turn freely.
-    pub(super) fn turning(
-        &self,
-        model: &Model,
-        frame: &Frame,
-        contact: &mut Contact,
-        solver: &mut Solver,
-        trial: Trial,
-    ) -> Result<Accepted, StepFailure> {
-        let way = (1.0 - self.alphas.alpha_f) * (trial.to - trial.from);
-        let sight = Sight::new(model, frame, way);
-        let inside = sight.inside(model);
-        let mut external = Vec::new();
-        sight.load(model, &inside.state.u, trial.to, &mut external);
-        let constraints = sight.constraints(model, trial.to);
-        let outlook = sight.outlook();
-        let acting = Acting {
-            constraints,
-            external,
-            sight: Some(sight),
-        };
-        let found = self.increment(model, &inside, acting, contact, solver, trial);
-        found.map(|accepted| in_space(model, &outlook, accepted))
-    }
-}
 
 impl QuasiStatic {
     /// Tries an increment in which bodies turn freely. Each pass sees them from where the one before has left them: nothing but their strain is missed then.

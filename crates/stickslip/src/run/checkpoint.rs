@@ -17,7 +17,7 @@
 //! | figures, findings, notes, counts, the last row; the cycle at hand | `Summary`, `Watch`, `Loop` | as they are |
 //! | points at which criteria of fatigue are asked | `Watched` | nothing: functions of the model |
 //! | facets, boxes, evaluations, projections | `Cache` | nothing: functions of the above |
-//! | cells at probes, shares of bodies by point, pairs of bodies that nothing joins | `Simulation` | nothing: functions of the model |
+//! | cells at probes, shares of bodies by point, pairs of bodies that nothing joins | `Run` | nothing: functions of the model |
 //!
 //! Condensed increments that wait are in those that observers are handed only where a run is stopped: how many interiors are found together shows in
 //! their last digits. They are reported twice then, and who goes on cuts back what they left. Others are taken where none waits.

@@ -10,11 +10,14 @@
 //!
 //! A block begins with a checkpoint. What it finds is reported when it is over; where it stands for too many it is taken back to that checkpoint, and nobody is told.
 
+use super::checkpoint::Checkpoint;
+use super::cycle_block::CycleBlock;
 use super::jump_error::Place;
 use super::jumps::{Amounts, Halved, Jumps};
+use super::parts::Run;
+use super::pending::flush;
 use super::position::Increments;
-use super::simulation::Simulation;
-use super::trying::Trying;
+use super::restart::go_back_to;
 use crate::contact::look;
 use crate::error::Error;
 use crate::model::cycling::{Block, ChosenJump};
@@ -35,345 +38,339 @@ const FEWEST: usize = 4;
 /// Cycles that a jump may always be tried with, however short the one before.
 const TRIED: f64 = 8.0;
 
-impl Simulation {
-    fn chosen(&self) -> Option<(ChosenJump, f64, usize)> {
-        let cycles = self.step().cycles?;
-        Some((cycles.chosen()?, cycles.period, cycles.count))
-    }
+fn chosen(run: &Run) -> Option<(ChosenJump, f64, usize)> {
+    let cycles = run.step().cycles?;
+    Some((cycles.chosen()?, cycles.period, cycles.count))
+}
 
-    /// What sliding has taken, by interface and place.
-    fn taken(&self) -> Vec<Vec<f64>> {
-        let interfaces = self.contact.views(&self.frame);
-        interfaces.map(|i| look::taken(i)).collect()
-    }
+/// What sliding has taken, by interface and place.
+fn taken(run: &Run) -> Vec<Vec<f64>> {
+    let interfaces = run.contact.views(&run.frame);
+    interfaces.map(|i| look::taken(i)).collect()
+}
 
-    /// Begins a block where one is to begin; the analysis stands between two increments.
-    pub(super) fn begin_block(&mut self, running: Increments) -> Increments {
-        let Some((chosen, period, count)) = self.chosen() else {
-            return running;
-        };
-        let before = self.frame.block.before;
-        if self.trying.is_some() || before >= count {
-            return running;
-        }
-        self.steps.running = Some(running);
-        let start = self.checkpoint_with(self.working());
-        let Some(mut running) = self.steps.running.take() else {
-            unreachable!("it has just been put there")
-        };
-        let taken = self.taken();
-        let jumps = &mut running.jumps;
-        jumps.start = taken;
-        if jumps.kept == 0 && jumps.rejected == 0 {
-            jumps.wish = match self.wears() && chosen.first > 1 {
-                true => 2.0 * chosen.first as f64,
-                false => chosen.first as f64,
-            };
-        }
-        let step = self.step();
-        // Equal jumps to the next time of output.
-        let times = self.model.reports.output.times.iter();
-        let due = times.map(|t| ((t - step.start) / period - ON_TIME).ceil().max(0.0) as usize);
-        let target = due.filter(|&n| n > before).min().unwrap_or(count);
-        let left = target.min(count) - before;
-        let largest = chosen.largest.unwrap_or(count) as f64;
-        let stands_for = match (&jumps.trial, self.wears()) {
-            (Some(trial), _) if trial.whole.is_some() => trial.halves()[0],
-            (_, false) => equal(left, jumps.wish.min(largest)),
-            (_, true) => {
-                let n = equal(left, jumps.wish.min(2.0 * largest));
-                let single = n < FEWEST;
-                jumps.trial = (!single).then(|| Halved {
-                    cycles: n,
-                    ..Halved::default()
-                });
-                if single { 1 } else { n }
-            }
-        };
-        self.set_block(&mut running, before, stands_for, period);
-        self.trying = Some(Trying::from(start));
-        running
-    }
+/// Whether a block is to begin; the analysis stands between two increments.
+pub(super) fn begins_block(run: &Run) -> bool {
+    let count = chosen(run).map_or(0, |(_, _, count)| count);
+    run.block.is_none() && run.frame.block.before < count
+}
 
-    /// Lets a block begin.
-    fn set_block(
-        &mut self,
-        running: &mut Increments,
-        before: usize,
-        stands_for: usize,
-        period: f64,
-    ) {
-        let block = Block { before, stands_for };
-        let at = (running.stepper).leap(self.step().start + block.begins(period));
-        self.frame.block = block;
-        self.frame.state.t = at;
-        self.solver.condenser.pass_time(at);
-        self.reset_predictor();
+/// Begins a block at a checkpoint.
+pub(super) fn begin_block(run: &mut Run, running: &mut Increments, start: Checkpoint) {
+    let Some((chosen, period, count)) = chosen(run) else {
+        return;
+    };
+    let before = run.frame.block.before;
+    let taken = taken(run);
+    let jumps = &mut running.jumps;
+    jumps.start = taken;
+    if jumps.kept == 0 && jumps.rejected == 0 {
+        jumps.wish = match wears(run) && chosen.first > 1 {
+            true => 2.0 * chosen.first as f64,
+            false => chosen.first as f64,
+        };
     }
-
-    fn wears(&self) -> bool {
-        self.contact.interfaces.iter().any(|i| i.wears())
-    }
-
-    /// Judges the block that ends with an increment at a time, if one does: keeps it, or takes it back.
-    pub(super) fn end_block(
-        &mut self,
-        running: &mut Increments,
-        t: f64,
-        observers: &mut [&mut dyn Observer],
-    ) -> Result<(), Error> {
-        let Some((chosen, period, count)) = self.chosen() else {
-            return Ok(());
-        };
-        let Block { before, stands_for } = self.frame.block;
-        let after = before + stands_for;
-        if (t - self.step().start) / period < after as f64 - ON_TIME {
-            return Ok(());
-        }
-        self.flush(observers)?;
-        if self.wears() {
-            return self.end_wearing_block(running, chosen, period, count, observers);
-        }
-        let change = self.judge_block(&mut running.jumps);
-        let n = stands_for as f64;
-        let jumps = &mut running.jumps;
-        if let Some(change) = change {
-            jumps.note_change(change);
-        }
-        if jumps.overshot(stands_for, chosen.error) {
-            return self.take_block_back(running, 1.0);
-        }
-        jumps.kept += 1;
-        jumps.wish = match change {
-            // The first has nothing to be compared with.
-            None => n,
-            Some(_) => 1.0,
-        };
-        let left = count - after;
-        let repeats = change.is_some_and(|change| {
-            change * left as f64 <= chosen.error * n || jumps.settles(chosen.error)
-        });
-        if repeats && left as f64 > jumps.wish.max(1.0) {
-            jumps.wish = left as f64;
-            if chosen.largest.is_none_or(|most| most >= left) {
-                self.solver.log.notes.push(format!(
-                    "step `{}`: what a cycle dissipates stays the same from cycle {after} on, but for the error: the next one stands for all that are left",
-                    self.step().name
-                ));
-            }
-        }
-        self.frame.block = Block {
-            before: after,
-            stands_for: 0,
-        };
-        self.release_block(observers)
-    }
-
-    /// Goes on from a block that is over where something wears: from a whole to its halves, from one half to the other, and from both to what they tell.
-    fn end_wearing_block(
-        &mut self,
-        running: &mut Increments,
-        chosen: ChosenJump,
-        period: f64,
-        count: usize,
-        observers: &mut [&mut dyn Observer],
-    ) -> Result<(), Error> {
-        let Block { before, stands_for } = self.frame.block;
-        let after = before + stands_for;
-        let worn = difference(&self.taken(), &running.jumps.start);
-        let places = self.places();
-        let jumps = &mut running.jumps;
-        let trial = jumps.trial.take();
-        let (whole, first, halves) = match trial {
-            None => {
-                let change = (!jumps.rates.is_empty()).then(|| absolute(&worn, &jumps.rates));
-                jumps.made.enter(&worn, change);
-                jumps.rates = worn;
-                let reach = TRIED.max(GROWTH);
-                jumps.wish =
-                    (jumps.made).reach(&places, &jumps.rates, SAFETY * chosen.error, reach);
-                return self.keep_block(running, after, count, observers);
-            }
-            Some(Halved {
-                whole: Some(whole),
-                first: Some(first),
-                cycles,
-            }) => {
-                let halved = Halved {
-                    cycles,
-                    ..Halved::default()
-                };
-                (whole, first, halved.halves())
-            }
-            Some(trial) if trial.whole.is_some() => {
-                let next = trial.halves()[1];
-                jumps.trial = Some(Halved {
-                    first: Some(worn),
-                    ..trial
-                });
-                self.set_block(running, after, next, period);
-                return Ok(());
-            }
-            Some(trial) => {
-                let trial = Halved {
-                    whole: Some(worn),
-                    ..trial
-                };
-                return self.go_on_with(running, Some(trial), 1.0);
-            }
-        };
-        let last = difference(&worn, &first);
-        let rates = scaled(&last, 1.0 / halves[1] as f64);
-        let made = jumps.made.with_halves(&whole, &worn, halves);
-        let cycles = halves[0] + halves[1];
-        if made.off(&places).worst() > chosen.error {
-            // What comes before the jump is as it was; how rates change is known better now.
-            let known = made.of_change(&jumps.made);
-            let reach = known.reach(&places, &rates, SAFETY * chosen.error, 0.5 * cycles as f64);
-            let halved = halves[0] >= FEWEST && reach >= SHRINKAGE * cycles as f64;
-            let trial = halved.then_some(Halved {
-                cycles: halves[0],
-                whole: Some(first),
-                first: None,
+    let step = run.step();
+    // Equal jumps to the next time of output.
+    let times = run.model.reports.output.times.iter();
+    let due = times.map(|t| ((t - step.start) / period - ON_TIME).ceil().max(0.0) as usize);
+    let target = due.filter(|&n| n > before).min().unwrap_or(count);
+    let left = target.min(count) - before;
+    let largest = chosen.largest.unwrap_or(count) as f64;
+    let stands_for = match (&jumps.trial, wears(run)) {
+        (Some(trial), _) if trial.whole.is_some() => trial.halves()[0],
+        (_, false) => equal(left, jumps.wish.min(largest)),
+        (_, true) => {
+            let n = equal(left, jumps.wish.min(2.0 * largest));
+            let single = n < FEWEST;
+            jumps.trial = (!single).then(|| Halved {
+                cycles: n,
+                ..Halved::default()
             });
-            self.summary.attempts.cycles_taken_back += 1;
-            return self.go_on_with(running, trial, reach);
+            if single { 1 } else { n }
         }
-        jumps.made = made;
-        jumps.rates = rates;
-        let most = (GROWTH * cycles as f64).max(TRIED);
-        jumps.wish = (jumps.made).reach(&places, &jumps.rates, SAFETY * chosen.error, most);
-        self.keep_block(running, after, count, observers)
-    }
+    };
+    set_block(run, running, before, stands_for, period);
+    run.block = Some(CycleBlock::from(start));
+}
 
-    /// Keeps what a block has found, and tells it.
-    fn keep_block(
-        &mut self,
-        running: &mut Increments,
-        after: usize,
-        count: usize,
-        observers: &mut [&mut dyn Observer],
-    ) -> Result<(), Error> {
-        running.jumps.kept += 1;
-        self.frame.block = Block {
-            before: after,
-            stands_for: 0,
-        };
-        let off = running.jumps.made.off(&self.places());
-        if after >= count && off.worst() > 0.0 {
-            self.solver.log.notes.push(format!(
-                "step `{}`: jumps over cycles are off by {:.1e} of the worn volume and by {:.1e} of the greatest depth, as halving each tells",
-                self.step().name,
-                off.volume,
-                off.depth
+/// Lets a block begin.
+fn set_block(
+    run: &mut Run,
+    running: &mut Increments,
+    before: usize,
+    stands_for: usize,
+    period: f64,
+) {
+    let block = Block { before, stands_for };
+    let at = (running.stepper).leap(run.step().start + block.begins(period));
+    run.frame.block = block;
+    run.frame.state.t = at;
+    run.solver.condenser.pass_time(at);
+    run.reset_predictor();
+}
+
+fn wears(run: &Run) -> bool {
+    run.contact.interfaces.iter().any(|i| i.wears())
+}
+
+/// Judges the block that ends with an increment at a time, if one does: keeps it, or takes it back.
+pub(super) fn end_block(
+    run: &mut Run,
+    running: &mut Increments,
+    t: f64,
+    observers: &mut [&mut dyn Observer],
+) -> Result<(), Error> {
+    let Some((chosen, period, count)) = chosen(run) else {
+        return Ok(());
+    };
+    let Block { before, stands_for } = run.frame.block;
+    let after = before + stands_for;
+    if (t - run.step().start) / period < after as f64 - ON_TIME {
+        return Ok(());
+    }
+    flush(run, observers)?;
+    if wears(run) {
+        return end_wearing_block(run, running, chosen, period, count, observers);
+    }
+    let change = judge_block(run, &mut running.jumps);
+    let n = stands_for as f64;
+    let jumps = &mut running.jumps;
+    if let Some(change) = change {
+        jumps.note_change(change);
+    }
+    if jumps.overshot(stands_for, chosen.error) {
+        return take_block_back(run, running, 1.0);
+    }
+    jumps.kept += 1;
+    jumps.wish = match change {
+        // The first has nothing to be compared with.
+        None => n,
+        Some(_) => 1.0,
+    };
+    let left = count - after;
+    let repeats = change.is_some_and(|change| {
+        change * left as f64 <= chosen.error * n || jumps.settles(chosen.error)
+    });
+    if repeats && left as f64 > jumps.wish.max(1.0) {
+        jumps.wish = left as f64;
+        if chosen.largest.is_none_or(|most| most >= left) {
+            run.solver.log.notes.push(format!(
+                "step `{}`: what a cycle dissipates stays the same from cycle {after} on, but for the error: the next one stands for all that are left",
+                run.step().name
             ));
         }
-        self.release_block(observers)
     }
+    run.frame.block = Block {
+        before: after,
+        stands_for: 0,
+    };
+    release_block(run, observers)
+}
 
-    /// Goes back to where the block began, and goes on with a jump of which the whole is known, or another.
-    fn go_on_with(
-        &mut self,
-        running: &mut Increments,
-        trial: Option<Halved>,
-        wish: f64,
-    ) -> Result<(), Error> {
-        let (taken_back, rejected) = (
-            self.summary.attempts.cycles_taken_back,
-            running.jumps.rejected,
-        );
-        self.take_block_back(running, wish)?;
-        self.summary.attempts.cycles_taken_back = taken_back;
-        running.jumps.rejected = rejected + usize::from(trial.is_none());
-        running.jumps.trial = trial;
-        Ok(())
-    }
-
-    /// Where interfaces wear.
-    fn places(&self) -> Vec<Vec<Place>> {
-        let interfaces = self.contact.views(&self.frame);
-        let wearing = interfaces.map(|i| match i.wears() {
-            true => look::wear_places(i),
-            false => Vec::new(),
-        });
-        wearing.collect()
-    }
-
-    /// By how much a cycle dissipates what the one before did not, place by place and relative to all that it does; `None` of the first.
-    fn judge_block(&self, jumps: &mut Jumps) -> Option<f64> {
-        let rates = difference(&self.taken(), &jumps.start);
-        let known = !jumps.rates.is_empty();
-        let changes = absolute(&rates, &jumps.rates);
-        let sum = |all: &[f64]| all.iter().map(|r| r.abs()).sum::<f64>();
-        let each = changes.iter().zip(&rates).map(|(change, rate)| {
-            let scale = sum(rate);
-            if scale > 0.0 {
-                sum(change) / scale
-            } else {
-                0.0
-            }
-        });
-        let change = each.fold(0.0, f64::max);
-        jumps.rates = rates;
-        known.then_some(change)
-    }
-
-    /// Goes back to where the block began, which is to stand for so many cycles then.
-    fn take_block_back(&mut self, running: &mut Increments, wish: f64) -> Result<(), Error> {
-        let Some(trying) = self.trying.take() else {
+/// Goes on from a block that is over where something wears: from a whole to its halves, from one half to the other, and from both to what they tell.
+fn end_wearing_block(
+    run: &mut Run,
+    running: &mut Increments,
+    chosen: ChosenJump,
+    period: f64,
+    count: usize,
+    observers: &mut [&mut dyn Observer],
+) -> Result<(), Error> {
+    let Block { before, stands_for } = run.frame.block;
+    let after = before + stands_for;
+    let worn = difference(&taken(run), &running.jumps.start);
+    let places = places(run);
+    let jumps = &mut running.jumps;
+    let trial = jumps.trial.take();
+    let (whole, first, halves) = match trial {
+        None => {
+            let change = (!jumps.rates.is_empty()).then(|| absolute(&worn, &jumps.rates));
+            jumps.made.enter(&worn, change);
+            jumps.rates = worn;
+            let reach = TRIED.max(GROWTH);
+            jumps.wish = (jumps.made).reach(&places, &jumps.rates, SAFETY * chosen.error, reach);
+            return keep_block(run, running, after, count, observers);
+        }
+        Some(Halved {
+            whole: Some(whole),
+            first: Some(first),
+            cycles,
+        }) => {
+            let halved = Halved {
+                cycles,
+                ..Halved::default()
+            };
+            (whole, first, halved.halves())
+        }
+        Some(trial) if trial.whole.is_some() => {
+            let next = trial.halves()[1];
+            jumps.trial = Some(Halved {
+                first: Some(worn),
+                ..trial
+            });
+            set_block(run, running, after, next, period);
             return Ok(());
-        };
-        let phases = self.summary.cost.phases;
-        self.go_back_to(trying.start)?;
-        self.summary.cost.phases = phases;
-        self.summary.attempts.cycles_taken_back += 1;
-        if let Some(mut back) = self.steps.running.take() {
-            back.jumps.wish = wish.max(1.0);
-            back.jumps.rejected += 1;
-            back.jumps.trial = None;
-            *running = back;
         }
-        Ok(())
+        Some(trial) => {
+            let trial = Halved {
+                whole: Some(worn),
+                ..trial
+            };
+            return go_on_with(run, running, Some(trial), 1.0);
+        }
+    };
+    let last = difference(&worn, &first);
+    let rates = scaled(&last, 1.0 / halves[1] as f64);
+    let made = jumps.made.with_halves(&whole, &worn, halves);
+    let cycles = halves[0] + halves[1];
+    if made.off(&places).worst() > chosen.error {
+        // What comes before the jump is as it was; how rates change is known better now.
+        let known = made.of_change(&jumps.made);
+        let reach = known.reach(&places, &rates, SAFETY * chosen.error, 0.5 * cycles as f64);
+        let halved = halves[0] >= FEWEST && reach >= SHRINKAGE * cycles as f64;
+        let trial = halved.then_some(Halved {
+            cycles: halves[0],
+            whole: Some(first),
+            first: None,
+        });
+        run.summary.attempts.cycles_taken_back += 1;
+        return go_on_with(run, running, trial, reach);
     }
+    jumps.made = made;
+    jumps.rates = rates;
+    let most = (GROWTH * cycles as f64).max(TRIED);
+    jumps.wish = (jumps.made).reach(&places, &jumps.rates, SAFETY * chosen.error, most);
+    keep_block(run, running, after, count, observers)
+}
 
-    /// The same after an increment that failed, where the block may stand for fewer; `false` where it may not.
-    pub(super) fn try_fewer_cycles(&mut self, running: &mut Increments) -> Result<bool, Error> {
-        let n = self.frame.block.stands_for;
-        if self.trying.is_none() || n < 2 {
-            return Ok(false);
-        }
-        let wish = (n as f64 * AFTER_FAILURE).floor();
-        self.take_block_back(running, wish).map(|()| true)
+/// Keeps what a block has found, and tells it.
+fn keep_block(
+    run: &mut Run,
+    running: &mut Increments,
+    after: usize,
+    count: usize,
+    observers: &mut [&mut dyn Observer],
+) -> Result<(), Error> {
+    running.jumps.kept += 1;
+    run.frame.block = Block {
+        before: after,
+        stands_for: 0,
+    };
+    let off = running.jumps.made.off(&places(run));
+    if after >= count && off.worst() > 0.0 {
+        run.solver.log.notes.push(format!(
+            "step `{}`: jumps over cycles are off by {:.1e} of the worn volume and by {:.1e} of the greatest depth, as halving each tells",
+            run.step().name,
+            off.volume,
+            off.depth
+        ));
     }
+    release_block(run, observers)
+}
 
-    /// The same as often, where increments do not hold with condensed bodies.
-    pub(super) fn try_block_again(&mut self) -> Result<bool, Error> {
-        let Some(trying) = self.trying.take() else {
-            return Ok(false);
-        };
-        self.go_back_to(trying.start).map(|()| true)
-    }
+/// Goes back to where the block began, and goes on with a jump of which the whole is known, or another.
+fn go_on_with(
+    run: &mut Run,
+    running: &mut Increments,
+    trial: Option<Halved>,
+    wish: f64,
+) -> Result<(), Error> {
+    let (taken_back, rejected) = (
+        run.summary.attempts.cycles_taken_back,
+        running.jumps.rejected,
+    );
+    take_block_back(run, running, wish)?;
+    run.summary.attempts.cycles_taken_back = taken_back;
+    running.jumps.rejected = rejected + usize::from(trial.is_none());
+    running.jumps.trial = trial;
+    Ok(())
+}
 
-    /// Tells what was held back.
-    pub(super) fn release_block(
-        &mut self,
-        observers: &mut [&mut dyn Observer],
-    ) -> Result<(), Error> {
-        let Some(trying) = self.trying.take() else {
-            return Ok(());
-        };
-        for row in &trying.rows {
-            self.tell(observers, || Event::Increment(row))?;
+/// Where interfaces wear.
+fn places(run: &Run) -> Vec<Vec<Place>> {
+    let interfaces = run.contact.views(&run.frame);
+    let wearing = interfaces.map(|i| match i.wears() {
+        true => look::wear_places(i),
+        false => Vec::new(),
+    });
+    wearing.collect()
+}
+
+/// By how much a cycle dissipates what the one before did not, place by place and relative to all that it does; `None` of the first.
+fn judge_block(run: &Run, jumps: &mut Jumps) -> Option<f64> {
+    let rates = difference(&taken(run), &jumps.start);
+    let known = !jumps.rates.is_empty();
+    let changes = absolute(&rates, &jumps.rates);
+    let sum = |all: &[f64]| all.iter().map(|r| r.abs()).sum::<f64>();
+    let each = changes.iter().zip(&rates).map(|(change, rate)| {
+        let scale = sum(rate);
+        if scale > 0.0 {
+            sum(change) / scale
+        } else {
+            0.0
         }
-        for row in &trying.cycles {
-            self.tell(observers, || Event::Cycle(row))?;
-        }
-        match trying.fields {
-            true => self.write_fields(observers),
-            false => Ok(()),
-        }?;
-        self.tell_notes(observers)
+    });
+    let change = each.fold(0.0, f64::max);
+    jumps.rates = rates;
+    known.then_some(change)
+}
+
+/// Goes back to where the block began, which is to stand for so many cycles then.
+fn take_block_back(run: &mut Run, running: &mut Increments, wish: f64) -> Result<(), Error> {
+    let Some(block) = run.block.take() else {
+        return Ok(());
+    };
+    let phases = run.summary.cost.phases;
+    go_back_to(run, block.start)?;
+    run.summary.cost.phases = phases;
+    run.summary.attempts.cycles_taken_back += 1;
+    if let Some(mut back) = run.steps.running.take() {
+        back.jumps.wish = wish.max(1.0);
+        back.jumps.rejected += 1;
+        back.jumps.trial = None;
+        *running = back;
     }
+    Ok(())
+}
+
+/// The same after an increment that failed, where the block may stand for fewer; `false` where it may not.
+pub(super) fn try_fewer_cycles(run: &mut Run, running: &mut Increments) -> Result<bool, Error> {
+    let n = run.frame.block.stands_for;
+    if run.block.is_none() || n < 2 {
+        return Ok(false);
+    }
+    let wish = (n as f64 * AFTER_FAILURE).floor();
+    take_block_back(run, running, wish).map(|()| true)
+}
+
+/// The same as often, where increments do not hold with condensed bodies.
+pub(super) fn try_block_again(run: &mut Run) -> Result<bool, Error> {
+    let Some(block) = run.block.take() else {
+        return Ok(false);
+    };
+    go_back_to(run, block.start).map(|()| true)
+}
+
+/// Tells what was held back.
+pub(super) fn release_block(
+    run: &mut Run,
+    observers: &mut [&mut dyn Observer],
+) -> Result<(), Error> {
+    let Some(block) = run.block.take() else {
+        return Ok(());
+    };
+    for row in &block.rows {
+        run.tell(observers, || Event::Increment(row))?;
+    }
+    for row in &block.cycles {
+        run.tell(observers, || Event::Cycle(row))?;
+    }
+    match block.fields {
+        true => run.write_fields(observers),
+        false => Ok(()),
+    }?;
+    run.tell_notes(observers)
 }
 
 /// Cycles of the first of equal blocks that are no longer than wished for.

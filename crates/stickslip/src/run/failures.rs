@@ -1,6 +1,6 @@
 //! What is made of attempts that fail: notes for the summary, findings of the doctor, and the error in the end.
 
-use super::simulation::{Simulation, view};
+use super::parts::{Run, view};
 use crate::assess::diagnosis;
 use crate::assess::doctor;
 use crate::error::{Error, RunError};
@@ -11,136 +11,134 @@ use crate::time::Trial;
 /// Most reasons of cut-backs that the summary lists.
 const MOST_REASONS: usize = 200;
 
-impl Simulation {
-    /// Takes note of what was tried beside plain iteration.
-    pub(crate) fn note_fallbacks(&mut self, trial: &Trial) {
-        let step = &self.model.steps[self.frame.step];
-        let summary = &mut self.summary;
-        for tried in self.solver.newton.fallbacks.drain(..) {
-            let outcome = if tried.converged {
-                "converged"
-            } else {
-                "failed"
-            };
-            // Once of each kind is enough for people; the list has them all.
-            if summary
-                .attempts
-                .fallbacks
-                .iter()
-                .all(|f| f.tried.kind != tried.kind)
-            {
-                self.solver.log.notes.push(format!(
-                    "{} after {:.6e}: plain iteration failed; {} {outcome} in {} iterations with {} (`fallbacks` of the summary lists all of them)",
-                    step.name, trial.from, tried.kind.name(), tried.iterations, tried.solver
-                ));
-            }
-            if summary.attempts.fallbacks.len() < MOST_REASONS {
-                summary.attempts.fallbacks.push(FallbackSummary {
-                    step: step.name.clone(),
-                    from: trial.from,
-                    to: trial.to,
-                    tried,
-                });
-            }
-        }
-    }
-
-    /// Lets the doctor look at an attempt that failed.
-    pub(crate) fn examine(
-        &mut self,
-        trial: &Trial,
-        attempt: usize,
-        counters: doctor::Counters,
-        failure: &StepFailure,
-    ) {
-        if failure.cause != Cause::Event {
-            let finding = doctor::diagnose(&view!(self), trial, attempt, counters, failure);
-            doctor::note(&mut self.summary.findings, finding);
-        }
-    }
-
-    /// Sees to it that there is a finding about what ended the run; the error says the same.
-    pub(crate) fn conclude(&mut self, error: RunError) -> RunError {
-        let findings = &self.summary.findings;
-        if findings
-            .iter()
-            .any(|f| f.severity >= doctor::Severity::Error)
-        {
-            return error;
-        }
-        let finding = doctor::stopped(&view!(self), &error);
-        let error = match finding.cause.is_mistake() {
-            true => doctor::mistake(&finding, error.time),
-            false => error,
+/// Takes note of what was tried beside plain iteration.
+pub(super) fn note_fallbacks(run: &mut Run, trial: &Trial) {
+    let step = &run.model.steps[run.frame.step];
+    let summary = &mut run.summary;
+    for tried in run.solver.newton.fallbacks.drain(..) {
+        let outcome = if tried.converged {
+            "converged"
+        } else {
+            "failed"
         };
-        doctor::note(&mut self.summary.findings, finding);
-        error
-    }
-
-    /// Takes note of an attempt that failed.
-    pub(crate) fn reject(&mut self, trial: &Trial, failure: &StepFailure) {
-        // What the last increment did is no guide any more.
-        self.reset_predictor();
-        let summary = &mut self.summary;
-        if failure.cause == Cause::Event {
-            summary.attempts.events += 1;
-            return;
-        }
-        summary.attempts.cutbacks += 1;
-        if summary.attempts.cutback_reasons.len() < MOST_REASONS {
-            summary.attempts.cutback_reasons.push(format!(
-                "{} ({:.6e} to {:.6e}): {}",
-                self.model.steps[self.frame.step].name, trial.from, trial.to, failure.message
+        // Once of each kind is enough for people; the list has them all.
+        if summary
+            .attempts
+            .fallbacks
+            .iter()
+            .all(|f| f.tried.kind != tried.kind)
+        {
+            run.solver.log.notes.push(format!(
+                "{} after {:.6e}: plain iteration failed; {} {outcome} in {} iterations with {} (`fallbacks` of the summary lists all of them)",
+                step.name, trial.from, tried.kind.name(), tried.iterations, tried.solver
             ));
         }
+        if summary.attempts.fallbacks.len() < MOST_REASONS {
+            summary.attempts.fallbacks.push(FallbackSummary {
+                step: step.name.clone(),
+                from: trial.from,
+                to: trial.to,
+                tried,
+            });
+        }
     }
+}
 
-    /// The error of an increment at the end of which contact cannot balance the loads: to halve it would only find out when.
-    pub(crate) fn refuse_unbalanced(&mut self, trial: Trial) -> Option<Error> {
-        let (finding, error) = view!(self).refuse_unbalanced(trial.from, trial.to)?;
-        doctor::note(&mut self.summary.findings, finding);
-        Some(error.into())
+/// Lets the doctor look at an attempt that failed.
+pub(super) fn examine(
+    run: &mut Run,
+    trial: &Trial,
+    attempt: usize,
+    counters: doctor::Counters,
+    failure: &StepFailure,
+) {
+    if failure.cause != Cause::Event {
+        let finding = doctor::diagnose(&view!(run), trial, attempt, counters, failure);
+        doctor::note(&mut run.summary.findings, finding);
     }
+}
 
-    /// The error of an increment that cannot be made smaller.
-    pub(crate) fn give_up(&mut self, failure: StepFailure, trial: &Trial) -> RunError {
-        let t = self.frame.state.t;
-        if let Some(finding) = self.summary.findings.last_mut() {
-            finding.severity = doctor::Severity::Error;
-            if finding.cause.is_mistake() {
-                return doctor::mistake(finding, t);
-            }
-        }
-        let view = self.view();
-        if failure.cause == Cause::Singular {
-            let free = view.explain_free(&failure, trial);
-            return free.unwrap_or_else(|| diagnosis::explain_singular(&view, &failure));
-        }
-        if failure.cause == Cause::Engine {
-            return failure.at(t);
-        }
-        if failure.cause == Cause::Memory {
-            let help = Some(doctor::MORE_MEMORY.to_string());
-            return StepFailure { help, ..failure }.at(t);
-        }
-        let otherwise = failure.otherwise.as_deref();
-        let also = otherwise.map_or(String::new(), |o| format!("; {}", o.message));
-        let message = format!(
-            "{}: {}{also}; the increment cannot be made smaller",
-            view.called(),
-            failure.message
-        );
-        let mut culprits = otherwise.map_or_else(Vec::new, |o| o.culprits.clone());
-        for own in &failure.culprits {
-            if culprits.iter().all(|known| known.place != own.place) {
-                culprits.push(own.clone());
-            }
-        }
-        let failure = StepFailure {
-            message,
-            culprits,
-            ..failure
-        };
-        failure.at(t)
+/// Sees to it that there is a finding about what ended the run; the error says the same.
+pub(super) fn conclude(run: &mut Run, error: RunError) -> RunError {
+    let findings = &run.summary.findings;
+    if findings
+        .iter()
+        .any(|f| f.severity >= doctor::Severity::Error)
+    {
+        return error;
     }
+    let finding = doctor::stopped(&view!(run), &error);
+    let error = match finding.cause.is_mistake() {
+        true => doctor::mistake(&finding, error.time),
+        false => error,
+    };
+    doctor::note(&mut run.summary.findings, finding);
+    error
+}
+
+/// Takes note of an attempt that failed.
+pub(super) fn reject(run: &mut Run, trial: &Trial, failure: &StepFailure) {
+    // What the last increment did is no guide any more.
+    run.reset_predictor();
+    let summary = &mut run.summary;
+    if failure.cause == Cause::Event {
+        summary.attempts.events += 1;
+        return;
+    }
+    summary.attempts.cutbacks += 1;
+    if summary.attempts.cutback_reasons.len() < MOST_REASONS {
+        summary.attempts.cutback_reasons.push(format!(
+            "{} ({:.6e} to {:.6e}): {}",
+            run.model.steps[run.frame.step].name, trial.from, trial.to, failure.message
+        ));
+    }
+}
+
+/// The error of an increment at the end of which contact cannot balance the loads: to halve it would only find out when.
+pub(super) fn refuse_unbalanced(run: &mut Run, trial: Trial) -> Option<Error> {
+    let (finding, error) = view!(run).refuse_unbalanced(trial.from, trial.to)?;
+    doctor::note(&mut run.summary.findings, finding);
+    Some(error.into())
+}
+
+/// The error of an increment that cannot be made smaller.
+pub(super) fn give_up(run: &mut Run, failure: StepFailure, trial: &Trial) -> RunError {
+    let t = run.frame.state.t;
+    if let Some(finding) = run.summary.findings.last_mut() {
+        finding.severity = doctor::Severity::Error;
+        if finding.cause.is_mistake() {
+            return doctor::mistake(finding, t);
+        }
+    }
+    let view = run.view();
+    if failure.cause == Cause::Singular {
+        let free = view.explain_free(&failure, trial);
+        return free.unwrap_or_else(|| diagnosis::explain_singular(&view, &failure));
+    }
+    if failure.cause == Cause::Engine {
+        return failure.at(t);
+    }
+    if failure.cause == Cause::Memory {
+        let help = Some(doctor::MORE_MEMORY.to_string());
+        return StepFailure { help, ..failure }.at(t);
+    }
+    let otherwise = failure.otherwise.as_deref();
+    let also = otherwise.map_or(String::new(), |o| format!("; {}", o.message));
+    let message = format!(
+        "{}: {}{also}; the increment cannot be made smaller",
+        view.called(),
+        failure.message
+    );
+    let mut culprits = otherwise.map_or_else(Vec::new, |o| o.culprits.clone());
+    for own in &failure.culprits {
+        if culprits.iter().all(|known| known.place != own.place) {
+            culprits.push(own.clone());
+        }
+    }
+    let failure = StepFailure {
+        message,
+        culprits,
+        ..failure
+    };
+    failure.at(t)
 }

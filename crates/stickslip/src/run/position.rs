@@ -72,28 +72,16 @@ impl Increments {
 
     /// Those of a step that go on from where they stood.
     pub fn at(step: &Step, standing: Standing) -> Self {
-        let Standing {
-            pace,
-            accepted,
-            attempt,
-            opened,
-            vain,
-            too_long,
-            tight,
-            failed,
-            jumps,
-        } = standing;
-        let fresh = Increments::of(step);
         Increments {
-            stepper: fresh.stepper.at(pace),
-            accepted,
-            attempt,
-            opened,
-            vain,
-            too_long,
-            tight,
-            failed,
-            jumps,
+            stepper: Increments::of(step).stepper.at(standing.pace),
+            accepted: standing.accepted,
+            attempt: standing.attempt,
+            opened: standing.opened,
+            vain: standing.vain,
+            too_long: standing.too_long,
+            tight: standing.tight,
+            failed: standing.failed,
+            jumps: standing.jumps,
         }
     }
 }

@@ -30,35 +30,7 @@ pub(crate) struct Pending {
     pub(super) found: Option<Candidates>,
 }
 
-/// What is due after an increment.
-pub(crate) struct Due {
-    pub fields: bool,
-    /// Of the history.
-    pub row: bool,
-}
-
 impl Pending {
-    /// An increment and attempt of these numbers, for which fields and a row of the history are due or not.
-    pub fn new(
-        trial: Trial,
-        accepted: Accepted,
-        increment: usize,
-        attempt: usize,
-        due: Due,
-    ) -> Self {
-        Pending {
-            trial,
-            accepted,
-            increment,
-            attempt,
-            fields: due.fields,
-            row: due.row,
-            seen: Vec::new(),
-            after: None,
-            found: None,
-        }
-    }
-
     /// It at a glance.
     pub fn advance(&self) -> Advance {
         Advance {

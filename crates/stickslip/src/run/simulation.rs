@@ -1,98 +1,55 @@
-//! An analysis that is run: who owns what, how it begins and ends.
+//! The loop over steps and increments: who owns an analysis, and how it goes on by one increment at a time.
 
-use std::collections::VecDeque;
+use std::ops::Deref;
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::checkpoint::Working;
-use super::position::Steps;
-use super::queue::{Pending, TakenBack};
-use super::trying::Trying;
-use crate::assess::diagnosis::{CheckReport, beginning, soon, start_gaps};
-use crate::assess::doctor::{self, DoctorCause, Finding, Watch};
-use crate::assess::quality;
-use crate::assess::view::View;
-use crate::body::Around;
+use super::attempt::{attempt, prepare, propose};
+use super::begin::begin_step;
+use super::checkpoint::{Checkpoint, Working};
+use super::cycles::{begin_block, begins_block};
+use super::ending::close;
+use super::energy_balance::check_energy_balance;
+use super::fallback::go_back;
+use super::floating::restarts;
+use super::modes::{find_modes, tell_growth};
+use super::outcome::{accept, answer, cut_back};
+use super::parts::Run;
+use super::pending::{flush, report_next};
+use super::position::Increments;
+use super::queue::Failed;
+use super::restart::{attempt_state, checkpoint_with, resume};
+use super::sizes::{Sizes, sizes};
+use crate::assess::diagnosis::CheckReport;
+use crate::assess::doctor;
 use crate::error::Error;
 use crate::friction::FrictionProblem;
-use crate::integrate::integration::Integration;
-use crate::integrate::quasi_static::QuasiStatic;
-use crate::modal::ModalOutcome;
 use crate::model::Setup;
-use crate::model::contact::Contact;
-use crate::model::definition::Model;
-use crate::model::frame::Frame;
-use crate::model::scene::Scene;
 use crate::newton::condensed::Library;
-use crate::results::analysis::Analysis;
-use crate::results::fatigue;
-use crate::results::loops::{self, Loop};
-use crate::results::observer::{Event, Observer};
-use crate::results::summary::{Phases, Summary};
-use crate::solve::solver::Solver;
-use crate::system::State;
+use crate::results::observer::{Event, Observer, Snapshot};
+use crate::solve::work::Watch;
+use crate::system::Cause;
 
-/// What those need who judge increments and make figures of them.
-pub(crate) struct Judges {
-    /// What interfaces did so far.
-    pub watches: Vec<Watch>,
-    /// The cycles at hand of interfaces, and the parts of bodies around their points by which displacements are averaged for them.
-    pub loops: Vec<Loop>,
-    pub shares: Vec<f64>,
-    /// Points at which criteria of fatigue are asked.
-    pub watched: Option<fatigue::Watched>,
-    /// Bodies that no interface joins.
-    pub unjoined: doctor::Unjoined,
-    /// Cells at the probes; `None` at rigid bodies.
-    pub around: Vec<Option<Around>>,
-}
+/// Asked between increments and between Newton iterations whether the analysis shall stop.
+pub type Interrupt = Arc<dyn Fn() -> bool + Send + Sync>;
 
 /// A model being run.
 pub struct Simulation {
-    /// What is simulated.
-    pub model: Model,
-    /// Interfaces and couplings.
-    pub contact: Contact,
-    /// Where it stands: the last increment that was reported.
-    pub frame: Frame,
-    /// Counts, energies and findings so far.
-    pub summary: Summary,
-    /// What steps without increments have found, in this process.
-    pub modes: Vec<ModalOutcome>,
-    pub(crate) solver: Solver,
-    pub(crate) integration: Integration,
-    pub(crate) steps: Steps,
-    /// Accepted increments whose interiors are not known yet.
-    pub(crate) pending: Vec<Pending>,
-    /// Those whose interiors are known, on their way to the observers.
-    pub(crate) recovered: Option<VecDeque<Pending>>,
-    /// The last of those whose interior was found not to hold.
-    pub(crate) taken_back: Option<TakenBack>,
-    pub(crate) judges: Judges,
-    pub(crate) started: Instant,
+    /// What is simulated, where it stands, and what has come of it.
+    pub run: Run,
     /// Increments at the last checkpoint, and when it was taken.
-    pub(super) saved: (usize, Instant),
+    saved: (usize, Instant),
     /// What the attempt at hand may change, as it was at its beginning, where a run may be stopped in the middle of one.
-    pub(super) before: Option<Working>,
-    /// The block of cycles at hand, where jumps over them are chosen.
-    pub(super) trying: Option<Trying>,
+    before: Option<Working>,
 }
 
-/// What looks at a simulation, with its summary and what judges remember left free.
-macro_rules! view {
-    ($simulation:ident) => {
-        $crate::assess::view::View {
-            scene: $crate::model::scene::Scene {
-                model: &$simulation.model,
-                contact: &$simulation.contact,
-                frame: &$simulation.frame,
-            },
-            solver: &$simulation.solver,
-            explicit: $simulation.integration.explicit(),
-        }
-    };
+impl Deref for Simulation {
+    type Target = Run;
+
+    fn deref(&self) -> &Run {
+        &self.run
+    }
 }
-pub(crate) use view;
 
 impl Simulation {
     /// Assembles the bulk and checks the model's own consistency.
@@ -104,58 +61,41 @@ impl Simulation {
     /// The same with the factors of other runs: bodies with the same matrix, unknowns and contact candidates are factored once. Results have the
     /// same bits, whoever made the factors.
     pub fn with_library(setup: Setup, library: Arc<Library>) -> Result<Self, Error> {
-        let started = Instant::now();
-        let Setup {
-            model,
-            mut contact,
-            notes,
-        } = setup;
-        let mut solver = Solver::new(&model, contact.interfaces.len(), library);
-        solver.log.notes = notes;
-        let frame = start(&model, &mut contact, &solver);
-        let probed = |point| model.elastic().find_map(|b| b.elastic.around(point));
-        let mut summary = Summary::new(&model, &contact);
-        summary.balance.energy = frame.ledger;
-        summary.balance.energy_quality.limit = model.solution.energy_limit;
-        summary.balance.energy_quality.met = true;
-        summary.quality.gate = model.reports.quality.gate;
-        summary.quality.met = true;
-        summary.cost.phases.assemble = started.elapsed().as_secs_f64();
-        let scene = Scene {
-            model: &model,
-            contact: &contact,
-            frame: &frame,
-        };
-        Ok(Simulation {
-            judges: Judges {
-                around: model
-                    .reports
-                    .probes
-                    .iter()
-                    .map(|p| probed(p.point))
-                    .collect(),
-                unjoined: doctor::Unjoined::new(&scene),
-                loops: vec![Loop::default(); contact.interfaces.len()],
-                shares: loops::shares(&model),
-                watched: fatigue::watched(&model, &contact),
-                watches: vec![Watch::default(); contact.interfaces.len()],
-            },
-            integration: Integration::QuasiStatic(QuasiStatic),
-            steps: Steps::default(),
-            modes: Vec::new(),
-            pending: Vec::new(),
-            recovered: None,
-            taken_back: None,
-            model,
-            contact,
-            frame,
-            summary,
-            solver,
-            started,
-            saved: (0, started),
+        Ok(Simulation::of(Run::new(setup, library)))
+    }
+
+    /// An analysis that goes on from a checkpoint, with the bits of one that never stopped. `setup` is what the problem builds to; `library` as in
+    /// [`Simulation::with_library`].
+    ///
+    /// # Errors
+    /// [`Error::Run`] if the checkpoint is one of another model, or bodies cannot be factored again.
+    pub fn resume(
+        setup: Setup,
+        library: Arc<Library>,
+        checkpoint: Checkpoint,
+    ) -> Result<Self, Error> {
+        let mut run = Run::new(setup, library);
+        resume(&mut run, checkpoint)?;
+        Ok(Simulation::of(run))
+    }
+
+    fn of(run: Run) -> Self {
+        Simulation {
+            saved: (run.summary.attempts.increments, run.started),
             before: None,
-            trying: None,
-        })
+            run,
+        }
+    }
+
+    /// Lets the analysis stop when `interrupt` says so: it is asked between increments and between Newton iterations, on the thread that calls
+    /// [`Simulation::advance`]. The increment at hand is given up, and those before it stay; the analysis can go on from there.
+    pub fn set_interrupt(&mut self, interrupt: Interrupt) {
+        self.run.solver.newton.interrupt = Some(interrupt);
+    }
+
+    /// Lets `watch` know what is being worked on, from within attempts: each Newton iteration, whichever way it belongs to, and what else may take a while.
+    pub fn set_watch(&mut self, watch: Watch) {
+        self.run.solver.seen.watch = Some(watch);
     }
 
     /// Runs all steps, or what is left of them.
@@ -168,143 +108,228 @@ impl Simulation {
         Ok(())
     }
 
-    /// The simulation to look at.
-    pub fn view(&self) -> View<'_> {
-        view!(self)
-    }
-
-    /// The simulation to look at, with what has come of it.
-    pub fn analysis(&self) -> Analysis<'_> {
-        Analysis {
-            view: self.view(),
-            summary: &self.summary,
+    /// Goes on by at most one increment that is reported; `false` at the end. [`Simulation::run`] is a loop over this, and gives the same bits.
+    ///
+    /// After it returns, [`Run::frame`] is that of the increment reported last. Not every call reports one: a step may begin, an
+    /// increment may fail, and increments of condensed bodies are found together. Where bodies that only contact can hold are moved,
+    /// several may be reported by one call.
+    ///
+    /// # Errors
+    /// As [`Simulation::run`]. After [`Error::Interrupted`] the analysis goes on with the next call, after any other it is over.
+    pub fn advance(&mut self, observers: &mut [&mut dyn Observer]) -> Result<bool, Error> {
+        if self.run.steps.over {
+            return Ok(false);
         }
-    }
-
-    /// Tells observers.
-    pub(crate) fn tell<'e>(
-        &self,
-        observers: &mut [&mut dyn Observer],
-        event: impl Fn() -> Event<'e>,
-    ) -> Result<(), Error> {
-        for observer in observers.iter_mut() {
-            observer.see(&self.analysis(), event())?;
+        if !self.run.steps.begun {
+            self.run.steps.begun = true;
+            self.run.started = Instant::now();
+            self.saved = (0, self.run.started);
+            self.check_model(observers)?;
         }
-        Ok(())
+        let outcome = self.next(observers);
+        let outcome = outcome.and_then(|more| match more {
+            true => self.save_if_due(observers).map(|()| true),
+            false => Ok(false),
+        });
+        if matches!(outcome, Ok(true)) {
+            return outcome;
+        }
+        self.run.steps.over = !matches!(outcome, Err(Error::Interrupted(_)));
+        close(&mut self.run, outcome, observers)
     }
 
     /// Looks at the model without running it.
     pub fn check(&mut self) -> CheckReport {
-        let (gaps, findings) = self.look();
-        self.view().check(&gaps, findings)
+        let (gaps, findings) = self.run.look();
+        self.run.view().check(&gaps, findings)
     }
 
-    /// Gaps at the start by interface, and what the doctor finds in the model.
-    pub(crate) fn look(&mut self) -> (Vec<Vec<f64>>, Vec<Finding>) {
-        let gaps = start_gaps(
-            &self.model,
-            &self.frame,
-            &mut self.contact,
-            &self.solver.conditions,
-        );
-        let findings = doctor::examine(&view!(self), &self.judges.unjoined, &gaps);
-        (gaps, findings)
+    /// How much the run will write, if it is asked before it begins.
+    pub fn sizes(&self) -> Sizes {
+        sizes(&self.run)
     }
 
-    /// What is to be said at the end, well or not.
-    pub(crate) fn close(
-        &mut self,
-        outcome: Result<bool, Error>,
-        observers: &mut [&mut dyn Observer],
-    ) -> Result<bool, Error> {
-        let outcome = match outcome {
-            // The rows of the block in which it ended say why.
-            Err(e) if !matches!(e, Error::Interrupted(_)) => {
-                let told = self.release_block(observers);
-                told.and(Err(e))
-            }
-            other => other,
-        };
-        let settled = observers.iter_mut().try_for_each(|o| o.settle());
-        let outcome = outcome.and_then(|done| settled.map(|()| done));
-        let outcome = outcome.map_err(|e| match e {
-            Error::Run(error) => Error::Run(self.conclude(error)),
-            e => e,
-        });
-        let total = self.elapsed();
-        let view = view!(self);
-        let summary = &mut self.summary;
-        let statistics = &self.solver.newton.statistics;
-        summary.finish(statistics, total, outcome.as_ref().err());
-        summary.balance.energy = self.frame.ledger;
-        let strain = self.frame.ledger.strain;
-        summary.loose.artificial_energy = self.solver.floating.artificial_energy(strain);
-        summary.interfaces = quality::interfaces(&view, &summary.quality, &self.judges.watches);
-        let mut notes = Vec::new();
-        if summary.run.completed {
-            for finding in doctor::watched(&view, &self.judges.watches) {
-                // Shear that is not there looks like any other.
-                if finding.cause == DoctorCause::TurnedNormals {
-                    notes.push(finding.message.clone());
-                }
-                doctor::note(&mut summary.findings, finding);
-            }
-        }
-        if summary.attempts.increments > 0 {
-            let (limits, energy) = (&self.model.reports.quality, &summary.balance.energy_quality);
-            view.judge_energy(limits, energy, &mut summary.quality, &mut notes);
-        }
-        self.solver.log.notes.extend(notes);
-        let told = self.tell_notes(observers);
-        let told = told.and(self.tell(observers, || Event::End));
-        // Why it ended is what to report, not that this could not be written either.
-        outcome.and_then(|more| told.map(|()| more))
+    /// All state from which the analysis goes on; `None` before the first step.
+    /// Increments that wait for their interiors or for their report are part of it: what is reported of them after it was taken, who goes on from it reports again.
+    pub fn checkpoint(&self) -> Option<Checkpoint> {
+        let steps = &self.run.steps;
+        let ready = steps.begun && steps.next > 0 && self.run.taken_back.is_none();
+        let ready = ready && self.run.block.is_none();
+        ready.then(|| checkpoint_with(&self.run, attempt_state(&self.run)))
     }
 
     /// The last increment as a friction problem, if none of the ways of Newton's method led anywhere and its bodies are condensed.
     pub fn unsolved(&self) -> Option<&FrictionProblem> {
-        self.solver.newton.unsolved.as_ref()
+        self.run.solver.newton.unsolved.as_ref()
     }
 
-    /// Seconds since the run started.
-    pub fn elapsed(&self) -> f64 {
-        self.started.elapsed().as_secs_f64()
+    /// Looks at the model before the first step: what the doctor finds in it does not stop the run, but is told and kept.
+    fn check_model(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        let (_, findings) = self.run.look();
+        for finding in findings {
+            self.run.tell(observers, || Event::Finding(&finding))?;
+            doctor::note(&mut self.run.summary.findings, finding);
+        }
+        Ok(())
     }
 
-    /// Times of the phases so far.
-    pub fn phases(&mut self) -> &mut Phases {
-        &mut self.summary.cost.phases
+    /// One turn. Where it ends because an increment was taken back, the analysis goes on from there.
+    fn next(&mut self, observers: &mut [&mut dyn Observer]) -> Result<bool, Error> {
+        let outcome = self.turn(observers);
+        match self.run.taken_back.take() {
+            Some(taken) => go_back(&mut self.run, taken, observers).map(|()| true),
+            None => outcome,
+        }
     }
-}
 
-/// Where an analysis begins.
-fn start(model: &Model, contact: &mut Contact, solver: &Solver) -> Frame {
-    let n = model.dofs.count();
-    let mut u = vec![0.0; n];
-    for &(dof, value) in model.actions.initials.iter().flat_map(|i| &i.displacements) {
-        u[dof] = value;
+    fn turn(&mut self, observers: &mut [&mut dyn Observer]) -> Result<bool, Error> {
+        let run = &mut self.run;
+        if report_next(run, observers)? {
+            return Ok(true);
+        }
+        // An attempt that has failed is dealt with first: its increment may have to be smaller.
+        let failed = (run.steps.running.as_ref()).is_some_and(|r| r.failed.is_some());
+        if !failed && run.solver.newton.interrupted() {
+            return Err(self.stop(observers));
+        }
+        if run.steps.running.is_none() {
+            let step = run.steps.next;
+            if step == run.model.steps.len() {
+                return Ok(false);
+            }
+            run.steps.next += 1;
+            begin_step(run, step)?;
+            run.tell_notes(observers)?;
+            if run.model.steps[step].modal.is_some() {
+                find_modes(run, observers)?;
+                return Ok(true);
+            }
+            run.steps.running = Some(Increments::of(run.step()));
+        }
+        let start = begins_block(run).then(|| checkpoint_with(run, attempt_state(run)));
+        let Some(mut running) = run.steps.running.take() else {
+            return Ok(false);
+        };
+        if let Some(start) = start {
+            begin_block(run, &mut running, start);
+        }
+        self.run.steps.running = self.next_attempt(running, observers)?;
+        if self.run.steps.running.is_none() {
+            tell_growth(&mut self.run, observers)?;
+        }
+        Ok(true)
     }
-    model.links.impose(&mut u);
-    let t = model.steps.first().map_or(0.0, |s| s.start);
-    let state = State {
-        t,
-        u,
-        ..State::default()
-    };
-    let contacts = contact.begin(&beginning(&state, &soon(model, &state)));
-    let coupled = contact.couplings.view(&contacts.couplings).stored();
-    let strain = solver.strain_energy(model, &state.u) + coupled;
-    let mut frame = Frame {
-        state,
-        contacts: Arc::new(contacts),
-        coupled,
-        forces: vec![0.0; n],
-        contact: vec![0.0; n],
-        load: vec![0.0; n],
-        fields: model.actions.fields.iter().map(|f| f.initial()).collect(),
-        ..Frame::default()
-    };
-    frame.ledger.initial = strain;
-    frame.ledger.strain = strain;
-    frame
+
+    /// One attempt and what follows from it; `None` at the end of the step.
+    fn next_attempt(
+        &mut self,
+        mut running: Increments,
+        observers: &mut [&mut dyn Observer],
+    ) -> Result<Option<Increments>, Error> {
+        let run = &mut self.run;
+        if let Some(failed) = running.failed.take() {
+            cut_back(run, &mut running, failed, observers)?;
+            return Ok(Some(running));
+        }
+        let Some(trial) = propose(run, &mut running) else {
+            return Ok(None);
+        };
+        prepare(run, trial, running.attempt, observers)?;
+        let counters = doctor::Counters::of(&run.solver.newton.statistics);
+        let stoppable = run.solver.newton.interrupt.is_some();
+        let solves = run.integration.explicit().is_none();
+        self.before = (stoppable && solves).then(|| attempt_state(run));
+        let outcome = attempt(run, trial, observers)?;
+        if matches!(&outcome, Err(e) if e.cause == Cause::Interrupted) {
+            // The same increment is tried again if the analysis goes on.
+            run.steps.running = Some(running);
+            return Err(self.stop(observers));
+        }
+        self.before = None;
+        let outcome = match outcome {
+            Ok(accepted) if restarts(run, trial, &accepted, observers)? => {
+                return Ok(Some(running));
+            }
+            Ok(accepted) => check_energy_balance(run, &mut running, trial, accepted),
+            failed => failed,
+        };
+        match outcome {
+            Ok(accepted) => accept(run, &mut running, trial, accepted, observers)?,
+            Err(failure) => {
+                let failed = Failed {
+                    trial,
+                    counters,
+                    failure,
+                };
+                answer(run, &mut running, failed, observers)?;
+            }
+        }
+        Ok(Some(running))
+    }
+
+    /// Reports what has been accepted; the error of an analysis that was asked to stop.
+    fn stop(&mut self, observers: &mut [&mut dyn Observer]) -> Error {
+        // What is reported from here on, who goes on from there reports again.
+        match self
+            .save(observers)
+            .and_then(|()| flush(&mut self.run, observers))
+        {
+            // The time up to which all is reported.
+            Ok(()) => {
+                let block = self.run.block.as_ref().map(|block| block.start.time());
+                Error::Interrupted(block.unwrap_or(self.run.frame.state.t))
+            }
+            Err(e) => e,
+        }
+    }
+
+    /// Hands on a checkpoint where one is due and can be taken.
+    fn save_if_due(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        let (every, seconds) = self.run.model.reports.output.checkpoint;
+        let (increments, at) = self.saved;
+        let passed = self.run.summary.attempts.increments - increments;
+        let failed =
+            (self.run.steps.running.as_ref()).is_some_and(|running| running.failed.is_some());
+        let between =
+            self.run.pending.is_empty() && self.run.recovered.is_none() && self.run.block.is_none();
+        if !between || failed {
+            return Ok(());
+        }
+        let due = every > 0 && passed >= every
+            || seconds > 0.0 && passed > 0 && at.elapsed().as_secs_f64() >= seconds;
+        match due {
+            true => self.save(observers),
+            false => Ok(()),
+        }
+    }
+
+    /// Hands on a checkpoint where one can be taken.
+    fn save(&mut self, observers: &mut [&mut dyn Observer]) -> Result<(), Error> {
+        let before = self.before.take();
+        let taken = match (&self.run.block, before) {
+            (Some(block), _) => Some(block.start.clone()),
+            (None, Some(before)) => Some(checkpoint_with(&self.run, before)),
+            (None, None) => self.checkpoint(),
+        };
+        let Some(checkpoint) = taken else {
+            return Ok(());
+        };
+        let (step, ended) = checkpoint.step();
+        let snapshot = Snapshot {
+            increments: checkpoint.increments(),
+            time: checkpoint.time(),
+            step,
+            ended,
+            state: checkpoint.to_bytes(),
+        };
+        self.saved = (snapshot.increments, Instant::now());
+        self.run.tell(observers, || Event::Checkpoint(&snapshot))?;
+        let remarks = observers.iter_mut().flat_map(|observer| observer.remarks());
+        let notes = &mut self.run.solver.log.notes;
+        notes.extend(remarks);
+        match notes.is_empty() {
+            true => Ok(()),
+            false => self.run.tell_notes(observers),
+        }
+    }
 }

@@ -371,7 +371,7 @@ fn where_an_interior_does_not_balance_the_sparse_matrix_goes_on() {
             let mut states = States::default();
             let outcome = simulation.run(&mut [&mut states]);
             outcome.unwrap_or_else(|e| panic!("{method}: {e}"));
-            (states, simulation.summary)
+            (states, simulation.run.summary)
         };
         let (condensed, summary) = run("condensed");
         let (sparse, _) = run("sparse");
@@ -418,7 +418,7 @@ fn a_slab_whose_points_all_change_status_at_once_comes_to_rest() {
         let mut simulation = Simulation::new(setup).expect("a model");
         let outcome = simulation.run(&mut []);
         outcome.unwrap_or_else(|e| panic!("{method}: {e}"));
-        simulation.summary
+        simulation.run.summary
     };
     let (condensed, sparse) = (run("condensed"), run("sparse"));
     assert_eq!(

@@ -378,7 +378,7 @@ fn mass_scaling_is_reported() {
             .replace("DYNAMIC", scheme);
         let mut simulation = support::build(&problem(&text)).unwrap_or_else(|e| panic!("{e}"));
         simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
-        simulation.summary
+        simulation.run.summary
     };
     let plain = summary("scheme.central-difference = {}");
     assert_eq!(plain.explicit.mass_added, 0.0);

@@ -75,7 +75,7 @@ interface.joint = {{ secondary = "layer.top", primary = "flat.bottom", roles = "
 "#
     );
     let mut simulation = support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
-    let interface = &mut simulation.contact.interfaces[0];
+    let interface = &mut simulation.run.contact.interfaces[0];
     let primary = interface.primary_nodes;
     for x in &mut interface.definition.mesh_mut().reference[primary..] {
         x[1] += VARIES * MEAN / BED * wave(x[0]);

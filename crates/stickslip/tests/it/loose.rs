@@ -75,7 +75,7 @@ fn attempt(text: &str) -> Result<Outcome, Error> {
     simulation.run(&mut [&mut record])?;
     Ok(Outcome {
         record,
-        summary: simulation.summary,
+        summary: simulation.run.summary,
     })
 }
 
@@ -397,7 +397,7 @@ step = [{{ name = "pull", {increments} }}, {{ name = "release", {increments} }}]
     outcome.unwrap_or_else(|e| panic!("mu {mu}, {increments}: {e}"));
     Outcome {
         record,
-        summary: simulation.summary,
+        summary: simulation.run.summary,
     }
 }
 
@@ -524,7 +524,7 @@ fn refused(text: &str) -> (String, Summary) {
     let mut simulation = simulation(text);
     let outcome = simulation.run(&mut []);
     let said = outcome.expect_err("nothing holds the body").to_string();
-    (said, simulation.summary)
+    (said, simulation.run.summary)
 }
 
 #[test]

@@ -13,7 +13,7 @@ pub fn modes(text: &str) -> ModalOutcome {
     simulation
         .run(&mut [])
         .unwrap_or_else(|e| panic!("{e}\n{text}"));
-    simulation.modes.pop().expect("modes")
+    simulation.run.modes.pop().expect("modes")
 }
 
 pub fn near(found: f64, expected: f64, tolerance: f64) {
@@ -464,6 +464,7 @@ fn a_motion_that_begins_along_a_mode_has_its_eigenvalue() {
     let decaying = (0..modes.len()).min_by(|&a, &b| modes[a].growth.total_cmp(&modes[b].growth));
     let number = decaying.unwrap() + 1;
     let slowest = run(&format!("amplitude = 1e-3, mode = {number}"))
+        .run
         .summary
         .vibrations
         .growth;

@@ -56,7 +56,7 @@ fn end(text: &str, method: &str) -> (Vec<f64>, Statistics) {
     let others: Vec<&String> = others.collect();
     assert!(others.is_empty(), "{others:?}");
     let solver = simulation.summary.cost.solver;
-    (simulation.frame.state.u, solver)
+    (simulation.run.frame.state.u, solver)
 }
 
 /// Runs by both, and returns the counts of multigrid.

@@ -21,7 +21,7 @@ fn press_and_slide(case: &str) -> Summary {
     let model = document.problem().unwrap().build(&document.folder());
     let mut simulation = Simulation::new(model.unwrap()).unwrap();
     simulation.run(&mut []).unwrap();
-    simulation.summary
+    simulation.run.summary
 }
 
 #[test]

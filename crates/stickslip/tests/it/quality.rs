@@ -675,7 +675,7 @@ step = [{{ increments = {{ fixed = 1 }} }}]
         }
     }
     // Bodies without frames have other figures.
-    let mut figures = with("").summary.quality.figures.into_iter();
+    let mut figures = with("").run.summary.quality.figures.into_iter();
     assert!(figures.all(|f| f.figure != "strain"));
 }
 
@@ -1270,7 +1270,7 @@ step = [{{ duration = 8e-3, dynamic.scheme.central-difference = {{}} }}]
         );
     }
     for joint in [tied, &coupling("equation")] {
-        let figures = swing(1, joint).summary.quality.figures;
+        let figures = swing(1, joint).run.summary.quality.figures;
         assert!(figures.iter().all(|f| f.figure != "explicit-opening"));
     }
 }

@@ -141,6 +141,7 @@ fn an_attempt_repeated_gives_the_same_bits() {
         );
         let contact = support::build(&problem)
             .unwrap_or_else(|e| panic!("{e}"))
+            .run
             .contact;
         let mut interface = contact
             .interfaces

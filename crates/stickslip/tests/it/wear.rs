@@ -220,7 +220,7 @@ wear.archard = {{ coefficient = {k} }}
 "#
     );
     let mut simulation = support::build(&support::problem(&text)).unwrap_or_else(|e| panic!("{e}"));
-    let interface = &mut simulation.contact.interfaces[0];
+    let interface = &mut simulation.run.contact.interfaces[0];
     for x in &mut interface.definition.mesh_mut().reference {
         x[1] += wave(x[0]);
     }

@@ -100,13 +100,13 @@ fn simulate(
 ) -> Ended {
     match Simulation::with_library(setup, Arc::clone(&shared.library)) {
         Ok(mut simulation) => {
-            simulation.summary.cost.phases.read = read;
+            simulation.run.summary.cost.phases.read = read;
             simulation.set_interrupt(Arc::clone(&shared.interrupt));
             simulation.set_watch(Arc::clone(&shared.watch));
             let error = simulation.run(observers).err();
             Ended {
                 error: error.map(Failure::from),
-                summary: Some(simulation.summary),
+                summary: Some(simulation.run.summary),
             }
         }
         Err(error) => Ended {

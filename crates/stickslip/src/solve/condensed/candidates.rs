@@ -1,7 +1,5 @@
 //! Points that may come into contact: what bodies are condensed to.
 
-use crate::solve::condenser::Condenser;
-
 use crate::contact::interface::{CandidateRange, include_all, restrict_to_candidates};
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
@@ -82,23 +80,6 @@ impl Solver {
         if model.solution.engine.as_dyn().condenses() {
             let idle = "explicit steps factor nothing: the engine has nothing to do in them";
             self.log.notes.push(idle.into());
-        }
-    }
-
-    /// Contact has come to points that do not take part: lets more of them.
-    pub fn widen(&mut self, model: &Model, frame: &Frame, contact: &Contact) {
-        self.condenser.widened += 1;
-        let count = |c: &Condenser| c.kept.iter().flatten().filter(|k| **k).count();
-        let before = count(&self.condenser);
-        self.choose_candidates(model, frame, contact);
-        let after = count(&self.condenser);
-        self.log.notes.push(format!(
-            "contact comes near to points that were not expected to be touched: {after} candidates instead of {before}, factored anew"
-        ));
-        self.condenser.at_rest = None;
-        self.condenser.moving.clear();
-        if model.steps[frame.step].dynamic.is_none() {
-            self.condense(model, frame, contact);
         }
     }
 }

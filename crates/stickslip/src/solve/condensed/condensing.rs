@@ -1,6 +1,6 @@
 //! Static condensation of the bodies of a model, where it is the cheapest way to solve.
 
-use crate::solve::condenser::{Condensed, Which};
+use crate::solve::condenser::{Condensed, Condenser, Which};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -323,6 +323,23 @@ impl Solver {
         self.method = Solution::Sparse;
         self.choose_candidates(model, frame, contact);
         None
+    }
+
+    /// Contact has come to points that do not take part: lets more of them.
+    pub fn widen(&mut self, model: &Model, frame: &Frame, contact: &Contact) {
+        self.condenser.widened += 1;
+        let count = |c: &Condenser| c.kept.iter().flatten().filter(|k| **k).count();
+        let before = count(&self.condenser);
+        self.choose_candidates(model, frame, contact);
+        let after = count(&self.condenser);
+        self.log.notes.push(format!(
+            "contact comes near to points that were not expected to be touched: {after} candidates instead of {before}, factored anew"
+        ));
+        self.condenser.at_rest = None;
+        self.condenser.moving.clear();
+        if model.steps[frame.step].dynamic.is_none() {
+            self.condense(model, frame, contact);
+        }
     }
 }
 

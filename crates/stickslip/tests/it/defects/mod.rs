@@ -139,7 +139,7 @@ pub fn examined(
     let error = simulation.run(&mut []).err();
     Ok(Examined {
         before,
-        during: simulation.summary.findings,
+        during: simulation.run.summary.findings,
         error,
     })
 }

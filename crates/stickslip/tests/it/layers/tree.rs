@@ -2,7 +2,7 @@
 //!
 //! An arrow ends at the file that defines what is imported, however many `pub use` lie between: a `mod.rs` that only declares and hands on is in nobody's
 //! way. What it hands on of the folders beneath it is its table of contents and no arrow. If its own code uses such a name, or if it defines something
-//! that the files beneath it import, there are arrows like any other. Globs count as imports of the module. Methods are not seen: they belong to their type.
+//! that the files beneath it import, there are arrows like any other. Globs count as imports of the module. Methods are not seen: they belong to their type, see [`methods`](super::methods).
 
 use std::collections::BTreeMap;
 use std::path::{Path as FilePath, PathBuf};
@@ -169,6 +169,20 @@ impl Tree {
             }
         }
         base
+    }
+
+    /// What a path of the code of a module names, from the root; a name that nothing imports is one of the module.
+    pub fn defined(&self, module: &Module, names: &[String]) -> Module {
+        let imports = &self.imports[module];
+        let known = imports.uses.iter().chain(&imports.exports);
+        let found = match { known }.find(|i| i.alias == names[0]) {
+            Some(import) => {
+                (self.absolute(module, &import.names)).map(|stem| [&stem, &names[1..]].concat())
+            }
+            None => self.absolute(module, names),
+        };
+        let home = found.map_or_else(|| module.clone(), |path| self.definer(&path, 0));
+        [&home, &names[names.len() - 1..]].concat()
     }
 
     /// All arrows of a file, at most one to each other file: that of the first line.

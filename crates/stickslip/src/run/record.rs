@@ -10,7 +10,7 @@ use crate::results::summary::Summary;
 use crate::solve::accepted::{Accepted, Effort};
 
 /// Makes it the last state, after which contact knows what the frame has already, and enters it into the ledger.
-pub(crate) fn book(
+pub(super) fn record(
     model: &Model,
     contact: &Contact,
     frame: &mut Frame,

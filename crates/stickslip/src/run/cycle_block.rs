@@ -4,32 +4,23 @@ use super::checkpoint::Checkpoint;
 use crate::results::history::Row;
 
 /// The block at hand, or two that are judged together: where they began, and what is to be told when they are over.
-pub(super) struct Trying {
+pub(super) struct CycleBlock {
     pub start: Checkpoint,
+    /// Rows of the history, and those of cycles.
     pub rows: Vec<Row>,
     pub cycles: Vec<Row>,
+    /// Whether fields are due.
     pub fields: bool,
 }
 
-impl Trying {
+impl CycleBlock {
     /// A block that begins.
     pub fn from(start: Checkpoint) -> Self {
-        Trying {
+        CycleBlock {
             start,
             rows: Vec::new(),
             cycles: Vec::new(),
             fields: false,
         }
-    }
-
-    /// Keeps what came of an increment.
-    pub fn hold(&mut self, row: Row, fields: bool) {
-        self.rows.push(row);
-        self.fields |= fields;
-    }
-
-    /// Keeps what came of a cycle.
-    pub fn hold_cycle(&mut self, row: Row) {
-        self.cycles.push(row);
     }
 }
