@@ -34,13 +34,13 @@ pub trait Keep: Sized {
     fn back(from: &mut Kept) -> Result<Self, Broken>;
 
     /// Says what its bytes are: names and types of all that is kept of it.
-    fn lay_out(out: &mut Layout);
+    fn layout_of(out: &mut Layout);
 }
 
 /// What bytes of a type are: equal for two types, or one type of two programs, only where the bytes of one can be read as the other.
 pub fn layout<T: Keep>() -> String {
     let mut out = Layout::default();
-    T::lay_out(&mut out);
+    T::layout_of(&mut out);
     out.text
 }
 
@@ -111,8 +111,8 @@ macro_rules! keep_by_name {
                     .ok_or($crate::keep::Broken)
             }
 
-            fn lay_out(out: &mut $crate::keep::Layout) {
-                <String as $crate::keep::Keep>::lay_out(out);
+            fn layout_of(out: &mut $crate::keep::Layout) {
+                <String as $crate::keep::Keep>::layout_of(out);
             }
         }
     };
@@ -130,7 +130,7 @@ macro_rules! keep_numbers {
                 Ok(<$number>::from_le_bytes(bytes.try_into().map_err(|_| Broken)?))
             }
 
-            fn lay_out(out: &mut Layout) {
+            fn layout_of(out: &mut Layout) {
                 out.word(stringify!($number));
             }
         }
@@ -148,7 +148,7 @@ impl Keep for usize {
         usize::try_from(u64::back(from)?).map_err(|_| Broken)
     }
 
-    fn lay_out(out: &mut Layout) {
+    fn layout_of(out: &mut Layout) {
         out.word("usize");
     }
 }
@@ -166,7 +166,7 @@ impl Keep for bool {
         }
     }
 
-    fn lay_out(out: &mut Layout) {
+    fn layout_of(out: &mut Layout) {
         out.word("bool");
     }
 }
@@ -183,7 +183,7 @@ impl Keep for String {
         String::from_utf8(bytes).map_err(|_| Broken)
     }
 
-    fn lay_out(out: &mut Layout) {
+    fn layout_of(out: &mut Layout) {
         out.word("text");
     }
 }
@@ -198,7 +198,7 @@ impl Keep for &'static str {
         Ok(String::leak(String::back(from)?))
     }
 
-    fn lay_out(out: &mut Layout) {
+    fn layout_of(out: &mut Layout) {
         out.word("text");
     }
 }
@@ -218,9 +218,9 @@ impl<T: Keep> Keep for Option<T> {
         }
     }
 
-    fn lay_out(out: &mut Layout) {
+    fn layout_of(out: &mut Layout) {
         out.word("option");
-        T::lay_out(out);
+        T::layout_of(out);
     }
 }
 
@@ -241,9 +241,9 @@ impl<T: Keep> Keep for Vec<T> {
         Ok(out)
     }
 
-    fn lay_out(out: &mut Layout) {
+    fn layout_of(out: &mut Layout) {
         out.word("list");
-        T::lay_out(out);
+        T::layout_of(out);
     }
 }
 
@@ -257,8 +257,8 @@ impl<T: Keep> Keep for VecDeque<T> {
         Vec::back(from).map(VecDeque::from)
     }
 
-    fn lay_out(out: &mut Layout) {
-        Vec::<T>::lay_out(out);
+    fn layout_of(out: &mut Layout) {
+        Vec::<T>::layout_of(out);
     }
 }
 
@@ -271,8 +271,8 @@ impl<T: Keep> Keep for Box<T> {
         T::back(from).map(Box::new)
     }
 
-    fn lay_out(out: &mut Layout) {
-        T::lay_out(out);
+    fn layout_of(out: &mut Layout) {
+        T::layout_of(out);
     }
 }
 
@@ -285,8 +285,8 @@ impl<T: Keep> Keep for Arc<T> {
         T::back(from).map(Arc::new)
     }
 
-    fn lay_out(out: &mut Layout) {
-        T::lay_out(out);
+    fn layout_of(out: &mut Layout) {
+        T::layout_of(out);
     }
 }
 
@@ -303,9 +303,9 @@ impl<T: Keep, const N: usize> Keep for [T; N] {
         all.try_into().map_err(|_| Broken)
     }
 
-    fn lay_out(out: &mut Layout) {
+    fn layout_of(out: &mut Layout) {
         out.word(&format!("{N} of"));
-        T::lay_out(out);
+        T::layout_of(out);
     }
 }
 
@@ -320,9 +320,9 @@ macro_rules! keep_tuples {
                 Ok(($($part::back(from)?,)+))
             }
 
-            fn lay_out(out: &mut Layout) {
+            fn layout_of(out: &mut Layout) {
                 out.word("(");
-                $($part::lay_out(out);)+
+                $($part::layout_of(out);)+
                 out.word(")");
             }
         }
@@ -345,8 +345,8 @@ impl<A: Keep + Ord, B: Keep> Keep for BTreeMap<A, B> {
         Ok(all.into_iter().collect())
     }
 
-    fn lay_out(out: &mut Layout) {
-        Vec::<(A, B)>::lay_out(out);
+    fn layout_of(out: &mut Layout) {
+        Vec::<(A, B)>::layout_of(out);
     }
 }
 

@@ -8,19 +8,19 @@ use stickslip::results::{Analysis, Event, Observer};
 
 use crate::print;
 use crate::remaining::{Remaining, part};
-use crate::voice::Voice;
+use crate::voice::ProgressPrinter;
 
 /// Prints an object a line on standard output: `{"event": "increment", ...}`, `cutback`, `finding`, `note`, `end`; a [`Heartbeat`](crate::voice::Heartbeat) adds
 /// `heartbeat` where nothing else is printed for half a minute.
 pub struct Lines {
-    voice: Voice,
+    voice: ProgressPrinter,
     started: Instant,
     remaining: Remaining,
 }
 
 impl Lines {
     /// Lines of a run that begins now.
-    pub fn new(voice: Voice) -> Self {
+    pub fn new(voice: ProgressPrinter) -> Self {
         Lines {
             voice,
             started: Instant::now(),

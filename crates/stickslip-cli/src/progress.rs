@@ -11,7 +11,7 @@ use stickslip::results::{Analysis, Event, Observer, Row};
 
 use crate::remaining::{Remaining, part};
 use crate::style::{Look, digits, figure, paint, sentence, short};
-use crate::voice::Voice;
+use crate::voice::ProgressPrinter;
 pub use crate::voice::say;
 
 /// Lines of increments that a file or a pipe gets before they become fewer, and how far apart they are from then on.
@@ -41,12 +41,12 @@ pub struct Progress {
     last: Instant,
     started: Instant,
     remaining: Remaining,
-    voice: Voice,
+    voice: ProgressPrinter,
 }
 
 impl Progress {
     /// `verbose` shows every Newton iteration. Where standard error is no terminal, lines become fewer after a while.
-    pub fn new(verbose: bool, voice: Voice) -> Self {
+    pub fn new(verbose: bool, voice: ProgressPrinter) -> Self {
         let now = Instant::now();
         Progress {
             verbose,

@@ -44,7 +44,7 @@ pub fn say(text: &str) {
 
 /// One voice for all who speak: cheap to clone.
 #[derive(Clone)]
-pub struct Voice {
+pub struct ProgressPrinter {
     state: Arc<Mutex<State>>,
 }
 
@@ -57,7 +57,7 @@ struct State {
     doing: Doing,
 }
 
-impl Voice {
+impl ProgressPrinter {
     /// Nothing has been said yet.
     pub fn new() -> Self {
         let now = Instant::now();
@@ -67,7 +67,7 @@ impl Voice {
             begun: now,
             doing: Doing::default(),
         };
-        Voice {
+        ProgressPrinter {
             state: Arc::new(Mutex::new(state)),
         }
     }
@@ -159,7 +159,7 @@ pub struct Heartbeat {
 
 impl Heartbeat {
     /// Begins to listen to a voice that people hear.
-    pub fn start(voice: &Voice) -> Self {
+    pub fn start(voice: &ProgressPrinter) -> Self {
         Heartbeat::to(
             match std::io::stderr().is_terminal() {
                 true => Listener::Terminal,
@@ -170,11 +170,11 @@ impl Heartbeat {
     }
 
     /// Begins to listen to a voice that a program hears.
-    pub fn to_program(voice: &Voice) -> Self {
+    pub fn to_program(voice: &ProgressPrinter) -> Self {
         Heartbeat::to(Listener::Program, voice)
     }
 
-    fn to(listener: Listener, voice: &Voice) -> Self {
+    fn to(listener: Listener, voice: &ProgressPrinter) -> Self {
         let over = Arc::new((Mutex::new(false), Condvar::new()));
         let (voice, ended) = (voice.clone(), Arc::clone(&over));
         let listen = move || {
@@ -340,8 +340,8 @@ mod tests {
 
     #[test]
     fn nothing_is_said_where_something_has_just_been_said() {
-        let voice = Voice::new();
-        let said = |voice: &Voice| voice.state().said;
+        let voice = ProgressPrinter::new();
+        let said = |voice: &ProgressPrinter| voice.state().said;
         let before = said(&voice);
         voice.state().beat(Listener::Program, Duration::MAX);
         assert_eq!(said(&voice), before);

@@ -68,7 +68,7 @@ fn implementation(input: &DeriveInput) -> Result<Code> {
 
             fn back(from: &mut ::stickslip_base::keep::Kept) -> Result<Self, ::stickslip_base::keep::Broken> { #back }
 
-            fn lay_out(out: &mut ::stickslip_base::keep::Layout) { out.of::<Self>(#word, |out| { #parts }); }
+            fn layout_of(out: &mut ::stickslip_base::keep::Layout) { out.of::<Self>(#word, |out| { #parts }); }
         }
     })
 }
@@ -100,7 +100,7 @@ fn parts(fields: &Fields) -> Result<Parts> {
         (parts.keep).extend(quote!(::stickslip_base::keep::Keep::keep(#bound, out);));
         (parts.back).extend(quote!(#member: ::stickslip_base::keep::Keep::back(from)?,));
         (parts.layout).extend(
-            quote!(#(out.word(#word);)* <#ty as ::stickslip_base::keep::Keep>::lay_out(out);),
+            quote!(#(out.word(#word);)* <#ty as ::stickslip_base::keep::Keep>::layout_of(out);),
         );
     }
     Ok(parts)

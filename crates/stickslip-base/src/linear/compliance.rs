@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 use super::elsewhere::Elsewhere;
 use super::factor::zeros;
-use super::{LinearError, Spread};
+use super::{DistributedOperator, LinearError};
 
 /// The inverse of a dense symmetric positive definite matrix, for products with vectors.
 ///
@@ -122,7 +122,7 @@ impl Compliance {
     }
 
     /// One that the processes of an engine have.
-    pub fn spread(n: usize, by: Arc<dyn Spread>) -> Compliance {
+    pub fn spread(n: usize, by: Arc<dyn DistributedOperator>) -> Compliance {
         Compliance::elsewhere(by, n, (0..n as u32).collect())
     }
 
@@ -149,7 +149,7 @@ impl Compliance {
         Compliance::from_values(own.len(), cut)
     }
 
-    fn elsewhere(by: Arc<dyn Spread>, size: usize, list: Vec<u32>) -> Compliance {
+    fn elsewhere(by: Arc<dyn DistributedOperator>, size: usize, list: Vec<u32>) -> Compliance {
         Compliance {
             n: list.len(),
             values: Vec::new(),

@@ -1,11 +1,11 @@
 use std::sync::Arc;
 
-use super::Spread;
+use super::DistributedOperator;
 
 /// A matrix that an engine has, or the rows and columns of it that are meant.
 #[derive(Debug)]
 pub(super) struct Elsewhere {
-    pub by: Arc<dyn Spread>,
+    pub by: Arc<dyn DistributedOperator>,
     /// Rows of the whole.
     pub size: usize,
     /// Those that are meant.

@@ -36,7 +36,7 @@ pub use eigen::{
     general, lanczos, noise, pencil, products, sums, symmetric,
 };
 pub use engine::{
-    Cut, Engine, EngineReport, FactorEffort, Interior, Multifrontal, Mumps, MumpsOptions, Ordered,
+    Analysed, Cut, Engine, EngineReport, FactorEffort, Interior, Multifrontal, Mumps, MumpsOptions,
     Split,
 };
 pub use error::LinearError;
@@ -49,5 +49,5 @@ pub use multigrid::{GapVariables, MeshHints, Multigrid, MultigridSettings};
 pub use pattern::Couplings;
 pub use residual::{backward_error, relative_residual};
 pub use schur::Schur;
-pub use spread::Spread;
+pub use spread::DistributedOperator;
 pub use symbolic::Symbolic;

@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use super::union::Union;
-use super::{Compliance, LinearError, Numbers, Spread, Workspace};
+use super::{Compliance, DistributedOperator, LinearError, Numbers, Workspace};
 
 /// What is left of a matrix at the kept dofs of a body, symmetric.
 #[derive(Debug)]
@@ -9,7 +9,7 @@ pub enum Schur {
     /// Of shape `(n, n)`, column by column; the upper triangle is zero.
     Here(Numbers),
     /// With the processes of an engine.
-    Spread(Arc<dyn Spread>),
+    DistributedOperator(Arc<dyn DistributedOperator>),
 }
 
 impl Schur {
@@ -17,19 +17,19 @@ impl Schur {
     pub fn trace(&self, n: usize) -> f64 {
         match self {
             Schur::Here(values) => (0..n).map(|i| values[i * (n + 1)]).sum(),
-            Schur::Spread(spread) => spread.trace(),
+            Schur::DistributedOperator(spread) => spread.trace(),
         }
     }
 
     /// Products with vectors.
     ///
     /// # Errors
-    /// Those of [`Spread::products`].
+    /// Those of [`DistributedOperator::products`].
     pub fn products(&self, vectors: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, LinearError> {
         Ok(match (self, vectors.first()) {
             (_, None) => Vec::new(),
             (Schur::Here(values), _) => vectors.iter().map(|v| product(values, v)).collect(),
-            (Schur::Spread(spread), Some(first)) => {
+            (Schur::DistributedOperator(spread), Some(first)) => {
                 let all = spread.products(&vectors.concat())?;
                 all.chunks(first.len().max(1))
                     .map(<[f64]>::to_vec)
@@ -52,7 +52,7 @@ impl Schur {
                     }
                 }
             }
-            Schur::Spread(spread) => {
+            Schur::DistributedOperator(spread) => {
                 let mut first = std::collections::BTreeMap::new();
                 for (i, &piece) in spread.pieces().iter().enumerate() {
                     union.join(i, *first.entry(piece).or_insert(i));
@@ -71,7 +71,7 @@ impl Schur {
     /// The inverse of `S + σ Σ m mᵀ`, of `n` rows; gives memory back.
     ///
     /// # Errors
-    /// Those of [`Compliance::of`] and [`Spread::invert`].
+    /// Those of [`Compliance::of`] and [`DistributedOperator::invert`].
     pub fn invert(
         self,
         n: usize,
@@ -81,7 +81,7 @@ impl Schur {
     ) -> Result<Compliance, LinearError> {
         let mut values = match self {
             Schur::Here(values) => values,
-            Schur::Spread(spread) => {
+            Schur::DistributedOperator(spread) => {
                 spread.invert(modes, sigma)?;
                 return Ok(Compliance::spread(n, spread));
             }

@@ -3,7 +3,7 @@ use std::fmt::Debug;
 use super::LinearError;
 
 /// A dense symmetric matrix that processes of an engine share: a Schur complement, and then its inverse.
-pub trait Spread: Debug + Send + Sync {
+pub trait DistributedOperator: Debug + Send + Sync {
     /// The sum of the diagonal.
     fn trace(&self) -> f64;
 

@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use serde_json::Value;
-use stickslip::assess::doctor::{DoctorCause, Finding, Guilty, Severity};
+use stickslip::assess::doctor::{DoctorCause, Finding, Severity, Suspect};
 use stickslip::assess::{Figure, told_apart};
 
 use crate::failure::{Failure, Outcome};
@@ -307,15 +307,15 @@ fn group(severity: Severity, cause: DoctorCause, all: &[&Finding]) -> String {
 
 /// Places of the other findings that are not among those of this one, five at most.
 fn others(one: &Finding, all: &[&Finding]) -> Vec<String> {
-    let same = |a: &Guilty, b: &Guilty| (a.what, &a.name, a.id) == (b.what, &b.name, b.id);
-    let mut found: Vec<&Guilty> = Vec::new();
+    let same = |a: &Suspect, b: &Suspect| (a.what, &a.name, a.id) == (b.what, &b.name, b.id);
+    let mut found: Vec<&Suspect> = Vec::new();
     for guilty in all.iter().flat_map(|f| &f.guilty) {
         let known = one.guilty.iter().chain(found.iter().copied());
         if !known.into_iter().any(|k| same(k, guilty)) {
             found.push(guilty);
         }
     }
-    let brief = |g: &Guilty| Guilty {
+    let brief = |g: &Suspect| Suspect {
         remark: String::new(),
         ..g.clone()
     };

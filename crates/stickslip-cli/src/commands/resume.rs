@@ -11,7 +11,7 @@ use super::{library, use_threads};
 use crate::failure::{Failure, Outcome};
 use crate::given;
 use crate::input::Input;
-use crate::voice::Voice;
+use crate::voice::ProgressPrinter;
 
 /// Go on with an analysis that was stopped or killed, from its last checkpoint.
 ///
@@ -36,7 +36,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Outcome {
     let manner = &arguments.manner;
     use_threads(manner.threads, manner.quiet);
-    let voice = Voice::new();
+    let voice = ProgressPrinter::new();
     voice.does("reading and assembling");
     let heartbeat = manner.heartbeat(&voice);
     let directory = &arguments.directory;

@@ -20,7 +20,7 @@ use crate::input::Input;
 use crate::lines::Lines;
 use crate::progress::Progress;
 use crate::style::sentence;
-use crate::voice::{Heartbeat, Voice};
+use crate::voice::{Heartbeat, ProgressPrinter};
 
 /// Run an analysis and write its results.
 #[derive(Debug, clap::Args)]
@@ -90,7 +90,7 @@ impl Manner {
     }
 
     /// A sign of life for who listens.
-    pub fn heartbeat(&self, voice: &Voice) -> Option<Heartbeat> {
+    pub fn heartbeat(&self, voice: &ProgressPrinter) -> Option<Heartbeat> {
         match (self.json, self.quiet) {
             (true, _) => Some(Heartbeat::to_program(voice)),
             (false, true) => None,
@@ -115,7 +115,7 @@ pub struct Session {
     /// It goes on.
     pub resumed: bool,
     /// What says what is being worked on.
-    pub voice: Voice,
+    pub voice: ProgressPrinter,
     pub heartbeat: Option<Heartbeat>,
     /// Where an increment that nothing solves is written to.
     pub dump_failures: Option<PathBuf>,
@@ -126,7 +126,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let manner = &arguments.manner;
     use_threads(manner.threads, manner.quiet);
     let started = Instant::now();
-    let voice = Voice::new();
+    let voice = ProgressPrinter::new();
     voice.does("reading and assembling");
     let heartbeat = manner.heartbeat(&voice);
     let overrides = arguments.engine.overrides(&arguments.set);

@@ -33,6 +33,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use stickslip::mesh::Mesh;
+use stickslip::problem::brief_toml;
 
 use crate::axes;
 use crate::card::Place;
@@ -81,7 +82,7 @@ impl Deck {
         if !job.errors.is_empty() {
             return Err(job.failed());
         }
-        let toml = match job.problem.to_brief_toml() {
+        let toml = match brief_toml(&job.problem) {
             Ok(text) => text,
             Err(e) => {
                 let findings = e.findings.iter();

@@ -15,7 +15,7 @@ fn answer(translation: &Translation) -> Response {
     let setup = setup.unwrap_or_else(|e| panic!("{e}"));
     let mut simulation = stickslip::run::Simulation::new(setup).expect("a simulation");
     simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
-    let last = simulation.modes.pop().expect("an outcome");
+    let last = simulation.run.modes.pop().expect("an outcome");
     last.response.expect("a response")
 }
 

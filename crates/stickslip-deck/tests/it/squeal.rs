@@ -81,7 +81,7 @@ complex-modes = {{ count = 8, friction-damping = {damping} }}
 
 fn last_modes(mut simulation: Simulation) -> ModalOutcome {
     simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
-    simulation.modes.pop().expect("modes")
+    simulation.run.modes.pop().expect("modes")
 }
 
 fn of_deck(text: &str) -> ModalOutcome {

@@ -21,7 +21,7 @@ pub struct Anchors {
     /// An equilibrium took no iteration: what is left is too small to tell where the bodies go.
     near: bool,
     /// Bodies were still on their way after all rounds. Newton's method may begin again after that.
-    adrift: bool,
+    unbalanced: bool,
     /// Norm of the other forces of contact at the last evaluation `[N]`.
     others: f64,
 }
@@ -108,7 +108,7 @@ impl Anchors {
             past: Vec::new(),
             near: false,
             others: 0.0,
-            adrift: false,
+            unbalanced: false,
         }
     }
 
@@ -166,7 +166,7 @@ impl Anchors {
 
     /// The next increment starts from where the bodies have come.
     pub fn rest(&mut self) {
-        self.adrift = false;
+        self.unbalanced = false;
         for g in &mut self.groups {
             g.start.clone_from(&g.now);
             g.at.clone_from(&g.now);
@@ -175,8 +175,8 @@ impl Anchors {
     }
 
     /// Whether the bodies were still on their way when the last attempt ended.
-    pub fn adrift(&self) -> bool {
-        self.adrift
+    pub fn unbalanced(&self) -> bool {
+        self.unbalanced
     }
 
     /// Energy left in the springs `[J]`.
@@ -385,7 +385,7 @@ impl Force for Anchors {
             return Augmentation::Done;
         }
         self.rounds += 1;
-        self.adrift |= self.rounds >= MOST_ROUNDS;
+        self.unbalanced |= self.rounds >= MOST_ROUNDS;
         Augmentation::Again(worst)
     }
 

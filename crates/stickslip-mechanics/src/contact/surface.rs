@@ -200,9 +200,9 @@ pub fn hollows(facets: &[&Facet], x: &[Vec3]) -> Vec<f64> {
         }
         let way = sub(q.x, p.x);
         // Normals that come towards each other are those of a hollow.
-        let hollow = -dot(sub(q.normal, p.normal), way).signum() * turned * distance(p.x, q.x);
+        let wear_gap = -dot(sub(q.normal, p.normal), way).signum() * turned * distance(p.x, q.x);
         for f in [a, b] {
-            sums[f].0 += hollow;
+            sums[f].0 += wear_gap;
             sums[f].1 += 1.0;
         }
     }

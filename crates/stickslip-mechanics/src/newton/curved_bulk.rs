@@ -9,7 +9,7 @@ use crate::linear::BlockCsr;
 use crate::system::{Assembler, StepFailure};
 
 /// Elastic forces with their derivative.
-pub trait Curved {
+pub trait NonlinearBody {
     /// Writes the internal forces at displacements `u` `[N]`, both by dof.
     fn forces(&self, u: &[f64], out: &mut [f64]);
 
@@ -19,8 +19,8 @@ pub trait Curved {
 
 /// `f(u) - external` with prescribed displacements. Newton's method has the exact derivative; GMRES solves with it, preconditioned by a factor of its positive part, which
 /// is made anew when it has become too different.
-pub struct CurvedBulk<'a> {
-    curved: &'a dyn Curved,
+pub struct NonlinearBulk<'a> {
+    curved: &'a dyn NonlinearBody,
     /// Of the stiffness at first, by which the rounding of forces is judged.
     diagonal: &'a [f64],
     external: Vec<f64>,
@@ -36,10 +36,10 @@ pub struct CurvedBulk<'a> {
     made: Option<(Vec<f64>, [BlockCsr; 2])>,
 }
 
-impl<'a> CurvedBulk<'a> {
+impl<'a> NonlinearBulk<'a> {
     /// A bulk with these forces, of which nothing is known yet.
     pub fn new(
-        curved: &'a dyn Curved,
+        curved: &'a dyn NonlinearBody,
         diagonal: &'a [f64],
         external: Vec<f64>,
         fixed: Vec<bool>,
@@ -47,7 +47,7 @@ impl<'a> CurvedBulk<'a> {
     ) -> Self {
         linearised.forget();
         let count = external.len();
-        CurvedBulk {
+        NonlinearBulk {
             curved,
             diagonal,
             external,
@@ -62,7 +62,7 @@ impl<'a> CurvedBulk<'a> {
     }
 }
 
-impl Bulk for CurvedBulk<'_> {
+impl Bulk for NonlinearBulk<'_> {
     fn dofs(&self) -> &[usize] {
         &self.dofs
     }

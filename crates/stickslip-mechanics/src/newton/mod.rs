@@ -52,7 +52,7 @@ mod strategy;
 mod system;
 
 pub use bulk::Bulk;
-pub use curved_bulk::{Curved, CurvedBulk};
+pub use curved_bulk::{NonlinearBody, NonlinearBulk};
 pub use factors::{Factors, FactorsRecipe, MOST_FACTORS};
 pub use failure::describe;
 pub use grids::BodyPoints;

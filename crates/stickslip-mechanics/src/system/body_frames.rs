@@ -11,7 +11,7 @@
 //! frame, is left to Newton's iteration. It is of the size of what contact carries over the length of the body, beside the stiffness of contact.
 //!
 //! A rigid body is one without `w`: its own hidden points carry the frame, or those of a reference point. In space the rotation of such a frame is counted from
-//! the start of an increment ([`Spinning`](super::Spinning)), so that it is small whatever the body has turned by.
+//! the start of an increment ([`IncrementalRotation`](super::IncrementalRotation)), so that it is small whatever the body has turned by.
 
 use std::ops::Range;
 

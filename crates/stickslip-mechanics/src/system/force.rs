@@ -113,7 +113,7 @@ pub trait Force: Send {
     }
 
     /// By point what it would carry if it was pressed and stuck; `None` for a point that cannot carry anything, and for a force that has no such points.
-    fn alone(&mut self, _stage: &Stage) -> Option<Vec<Option<PointAlone>>> {
+    fn alone(&mut self, _stage: &Stage) -> Option<Vec<Option<StickTrial>>> {
         None
     }
 
@@ -143,7 +143,7 @@ pub trait Force: Send {
 
 /// A point of contact as a friction problem knows it: normal, and two directions of shear.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PointAlone {
+pub struct StickTrial {
     /// Dofs on which its forces act.
     pub dofs: Vec<usize>,
     /// Gradients of the gap and of the two components of slip, row by row, shape `(3, n)`.

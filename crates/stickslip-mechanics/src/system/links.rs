@@ -124,7 +124,7 @@ pub type Row = [(usize, f64); 3];
 
 /// A dof of a reference point that does nothing but follow what points of bodies do: a weighted sum of their displacements.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Follower {
+pub struct DependentNode {
     /// The dof.
     pub dof: usize,
     /// Dofs of points and factors.
@@ -138,7 +138,7 @@ pub struct Follower {
 pub struct Links {
     dofs: Dofs,
     all: Vec<Link>,
-    followers: Vec<Follower>,
+    followers: Vec<DependentNode>,
     /// The rigid body of every point, [`NONE`] without one; empty if there are none at all.
     owner: Vec<u32>,
 }
@@ -169,7 +169,7 @@ impl Links {
 
     /// The same with dofs that follow points of bodies.
     #[must_use]
-    pub fn with_followers(mut self, followers: Vec<Follower>) -> Self {
+    pub fn with_followers(mut self, followers: Vec<DependentNode>) -> Self {
         self.followers = followers;
         self
     }
@@ -281,14 +281,14 @@ impl Links {
         self.rows(&mut |dof, row| {
             u[dof] = row.iter().map(|&(hidden, factor)| factor * u[hidden]).sum();
         });
-        for Follower { dof, row } in &self.followers {
+        for DependentNode { dof, row } in &self.followers {
             u[*dof] = row.iter().map(|&(other, factor)| factor * u[other]).sum();
         }
     }
 
     /// `Tᵀ f`: moves the forces on points of rigid bodies to the hidden dofs.
     pub fn transfer(&self, f: &mut [f64]) {
-        for Follower { dof, row } in &self.followers {
+        for DependentNode { dof, row } in &self.followers {
             let force = f[*dof];
             f[*dof] = 0.0;
             if force != 0.0 {

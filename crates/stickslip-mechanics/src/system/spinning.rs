@@ -33,7 +33,7 @@ struct Rotor {
 
 /// The rigid bodies that turn by any angle in space. Where there are none, as in the plane, everything here does nothing.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Spinning {
+pub struct IncrementalRotation {
     dofs: Dofs,
     all: Vec<Rotor>,
 }
@@ -41,7 +41,7 @@ pub struct Spinning {
 /// Velocities and momenta by dof.
 pub type Carried<'a> = (&'a [f64], &'a [f64]);
 
-impl Spinning {
+impl IncrementalRotation {
     /// From where displacements `u` have led to.
     pub fn new(frames: &BodyFrames, u: &[f64]) -> Self {
         let dofs = frames.dofs();
@@ -55,7 +55,7 @@ impl Spinning {
                 start,
             }
         });
-        Spinning {
+        IncrementalRotation {
             dofs,
             all: all.collect(),
         }
@@ -137,7 +137,7 @@ impl Spinning {
     }
 
     /// Moments along the axes of space to those of the bodies at the start.
-    pub fn into_axes(&self, moments: &mut [f64]) {
+    pub fn to_body_axes(&self, moments: &mut [f64]) {
         self.each(moments, |rotor, m| transpose_vec(&rotor.base, m));
     }
 
@@ -255,7 +255,7 @@ mod tests {
     #[test]
     fn rotations_go_in_and_out_and_go_on() {
         let mut start = state([0.0, 0.0, 9.0]);
-        let spinning = Spinning::new(&frames(), &start);
+        let spinning = IncrementalRotation::new(&frames(), &start);
         let mut seen = start.clone();
         spinning.enter(&mut seen);
         assert!(norm([seen[6], seen[7], seen[8]]) < 1e-13);
@@ -272,7 +272,7 @@ mod tests {
     #[test]
     fn moments_do_the_work_they_do_in_space() {
         // Power of a moment in space and of its components, by finite differences of the rotation.
-        let spinning = Spinning::new(&frames(), &state([0.3, -1.1, 0.8]));
+        let spinning = IncrementalRotation::new(&frames(), &state([0.3, -1.1, 0.8]));
         let (psi, change) = ([0.21, -0.3, 0.4], [0.5, 0.2, -0.7]);
         let rotation = |s: f64| {
             product(
@@ -292,7 +292,7 @@ mod tests {
         let moment = [0.9, -0.4, 0.6];
         let mut g = state(scale(1.0 / 0.7, moment));
         let u = state(psi);
-        spinning.into_axes(&mut g);
+        spinning.to_body_axes(&mut g);
         spinning.lean(&u, &mut g);
         assert!((dot([g[6], g[7], g[8]], change) - dot(moment, spin)).abs() < 1e-9);
         spinning.outward(&u, &mut g);
@@ -301,7 +301,7 @@ mod tests {
 
     #[test]
     fn a_free_drift_keeps_momentum_and_energy() {
-        let spinning = Spinning::new(&frames(), &state([0.0; 3]));
+        let spinning = IncrementalRotation::new(&frames(), &state([0.0; 3]));
         let spin_of = |_: usize, p: Vec3| [p[0] / J[0], p[1] / J[1], p[2] / J[2]];
         let p = state([0.4, 3.0, -0.2]);
         let [psi, last] = spinning.drift(&p, 0.3, spin_of)[0];

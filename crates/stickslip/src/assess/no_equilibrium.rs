@@ -4,7 +4,7 @@
 //! touch: a problem of linear inequalities in as many unknowns as there are free motions. Where there is no such sum, what is left of the loads is the motion
 //! that nothing stops. Of contact the most is believed: every point meets what it faces, and friction is as large as it may be.
 
-use super::doctor::{DoctorCause, Finding, Guilty, Opposite, Severity, body_at, let_go};
+use super::doctor::{DoctorCause, Finding, Opposite, Severity, Suspect, body_at, let_go};
 use super::view::View;
 use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::contact::law::friction::FrictionPoint;
@@ -208,11 +208,11 @@ impl View<'_> {
         let mut culprits = vec![format!("body {body}: {what} is held by contact alone")];
         for driver in drivers {
             culprits.push(format!("{} {}", driver.key, driver.what));
-            finding = finding.blame(Guilty::key(driver.key, driver.what));
+            finding = finding.blame(Suspect::key(driver.key, driver.what));
         }
         for gone in gone {
             culprits.push(format!("{} {}", gone.key, gone.what));
-            finding = finding.blame(Guilty::key(gone.key, gone.what));
+            finding = finding.blame(Suspect::key(gone.key, gone.what));
         }
         finding.step = Some(self.step_name().to_string());
         finding.time = Some(self.frame.state.t);

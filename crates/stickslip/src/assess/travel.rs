@@ -1,6 +1,6 @@
 //! How far bodies have turned and moved: figures that see what the linear theory does not.
 
-use super::doctor::{self, DoctorCause, Finding, Guilty, Severity, What};
+use super::doctor::{self, DoctorCause, Finding, LocationKind, Severity, Suspect};
 use super::figures::{DISPLACEMENT, LOCAL_ROTATION, ROTATION, STRAIN};
 use super::quality::Gate;
 use super::view::View;
@@ -144,7 +144,7 @@ impl View<'_> {
     /// A body in motion that has left the model, once for each.
     fn note_far(&self, body: &str, way: f64, moved: f64, findings: &mut Vec<Finding>) {
         let known = |f: &Finding| {
-            let about = |g: &Guilty| g.what == What::Body && g.name == body;
+            let about = |g: &Suspect| g.what == LocationKind::Body && g.name == body;
             f.cause == DoctorCause::FarAway && f.guilty.iter().any(about)
         };
         if findings.iter().any(known) {
@@ -157,7 +157,7 @@ impl View<'_> {
                 "body {body} has moved by {way:.3e}, {moved:.2e} times the size of the model and the way that is prescribed"
             ),
         )
-        .blame(Guilty::body(body, "far from where it was"))
+        .blame(Suspect::body(body, "far from where it was"))
         .advise("if it is not meant to fly or fall, look for an obstacle or a support that is missing, and for loads, masses and velocities in the wrong unit");
         finding.step = Some(self.step_name().to_string());
         finding.time = Some(self.frame.state.t);

@@ -1,6 +1,6 @@
 //! Bodies that nothing holds, for a person: before a step begins, and after an increment in which one could not be brought to rest.
 
-use super::doctor::{DoctorCause, Finding, Guilty, Severity, body_at, let_go};
+use super::doctor::{DoctorCause, Finding, Severity, Suspect, body_at, let_go};
 use super::view::View;
 use crate::contact::look;
 use crate::error::RunError;
@@ -67,7 +67,7 @@ impl View<'_> {
             finding = finding.blame(body_at(self.model, &body, remark));
         }
         for driver in push.drivers().into_iter().filter(|_| *driven) {
-            finding = finding.blame(Guilty::key(driver.key, driver.what));
+            finding = finding.blame(Suspect::key(driver.key, driver.what));
         }
         let mut help = "support these motions, or hold them by weak springs (`[load.NAME] spring = { stiffness = [...] }`); \
              if the body is meant to fly or fall, make the step dynamic"
@@ -82,7 +82,7 @@ impl View<'_> {
         for gone in let_go(self, &moved) {
             culprits.push(format!("{} {}", gone.key, gone.what));
             help = format!("{}; {help}", gone.advice);
-            finding = finding.blame(Guilty::key(gone.key, gone.what));
+            finding = finding.blame(Suspect::key(gone.key, gone.what));
         }
         finding = finding.advise(help.clone());
         finding.step = Some(step);

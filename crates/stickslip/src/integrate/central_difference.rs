@@ -17,7 +17,7 @@ use crate::model::frame::Frame;
 use crate::model::ledger::Flow;
 use crate::solve::accepted::{Accepted, Effort};
 use crate::solve::solver::Solver;
-use crate::system::{Cause, Constraints, Force, Spinning, Stage, State, StepFailure};
+use crate::system::{Cause, Constraints, Force, IncrementalRotation, Stage, State, StepFailure};
 use crate::time::Trial;
 
 /// Dofs that one task updates; fixed, so that sums do not depend on the number of threads.
@@ -64,10 +64,10 @@ impl Integrator for Explicit {
         } else {
             frame.external(model, trial.to)
         };
-        let there = Spinning::new(&model.frames, &u);
+        let there = IncrementalRotation::new(&model.frames, &u);
         let mut acting = Cow::Borrowed(&external);
         if !there.is_empty() {
-            there.into_axes(acting.to_mut());
+            there.to_body_axes(acting.to_mut());
         }
         let end = End {
             from: drift.from(),
@@ -219,7 +219,7 @@ impl Explicit {
         self.damp(model, u, &at.v);
         self.out.reset(false);
         let frames = frames_here(model, u);
-        let there = Spinning::new(&model.frames, u);
+        let there = IncrementalRotation::new(&model.frames, u);
         let (mut from, mut seen) = (Cow::Borrowed(&frame.state), Cow::Borrowed(at));
         if !there.is_empty() {
             there.enter(&mut from.to_mut().u);

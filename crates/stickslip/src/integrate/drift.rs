@@ -1,7 +1,7 @@
 //! Rigid bodies that turn by any angle in space, without equations.
 //!
 //! Central differences let moments act in an instant at both ends of an increment, and nothing in between. So a body drifts from the one to the other with its
-//! angular momentum and its energy, which [`Spinning::drift`] keeps:
+//! angular momentum and its energy, which [`IncrementalRotation::drift`] keeps:
 //!
 //! ```text
 //! J Ω½ = J Ω₀ + dt/2 m₀,   R₁ = R₀ exp(ψ),   J Ω₁ = exp(ψ)ᵀ J Ω½ + dt/2 m₁
@@ -16,12 +16,12 @@ use crate::math::{Vec3, add, add_scaled, cross, dot, scale, sub};
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::solve::spin::Spin;
-use crate::system::{Constraints, Dofs, Spinning, State};
+use crate::system::{Constraints, Dofs, IncrementalRotation, State};
 
 /// The rigid bodies that turn freely in space over an explicit increment.
 pub(super) struct Drift<'a> {
     dofs: Dofs,
-    spinning: Spinning,
+    spinning: IncrementalRotation,
     /// The hidden points of those whose rotations nothing holds.
     free: Vec<usize>,
     /// The start, rotations counted from there and moments along the axes of the bodies.
@@ -31,7 +31,7 @@ pub(super) struct Drift<'a> {
 impl<'a> Drift<'a> {
     pub fn new(model: &Model, frame: &'a Frame, constraints: &Constraints) -> Self {
         let dofs = model.dofs;
-        let spinning = Spinning::new(&model.frames, &frame.state.u);
+        let spinning = IncrementalRotation::new(&model.frames, &frame.state.u);
         let own = |p: usize| dofs.of(p, 0)..dofs.of(p + 1, 0);
         let points = spinning.points();
         let free = points.filter(|&p| constraints.fixed[own(p)].iter().all(|f| !f));
@@ -42,7 +42,7 @@ impl<'a> Drift<'a> {
             spinning.enter(&mut own.state.u);
             for x in [&mut own.load, &mut own.forces, &mut own.contact] {
                 if !x.is_empty() {
-                    spinning.into_axes(x);
+                    spinning.to_body_axes(x);
                 }
             }
         }

@@ -18,7 +18,7 @@ use crate::model::definition::{Dynamic, Model};
 use crate::model::frame::Frame;
 use crate::solve::inertia::lumped;
 use crate::solve::spin::{Spin, mobility};
-use crate::system::{Assembler, Constraints, Spinning};
+use crate::system::{Assembler, Constraints, IncrementalRotation};
 use crate::time::scheme::Method;
 
 /// How fast interfaces and couplings let masses swing.
@@ -370,11 +370,11 @@ impl Explicit {
                 false => (self.inverse[i] * balance(i), 0.0),
             })
             .unzip();
-        let spinning = Spinning::new(&model.frames, &frame.state.u);
+        let spinning = IncrementalRotation::new(&model.frames, &frame.state.u);
         let mut moments: Vec<f64> = (0..load.len())
             .map(|i| load[i] - self.force[i] - contact[i])
             .collect();
-        spinning.into_axes(&mut moments);
+        spinning.to_body_axes(&mut moments);
         if !spinning.is_empty() {
             let v = &frame.state.v;
             spinning.add_steady(-1.0, (v, &self.angular(v)), &mut moments);
@@ -411,7 +411,7 @@ impl Explicit {
         let mut more = Assembler::new(frame.contact.len());
         exact.act(&Exact::default(), &[], contact, &model.links, &mut more);
         let none = vec![0.0; more.residual.len()];
-        Spinning::new(&model.frames, &frame.state.u).outward(&none, &mut more.residual);
+        IncrementalRotation::new(&model.frames, &frame.state.u).outward(&none, &mut more.residual);
         for (contact, f) in frame.contact.iter_mut().zip(&more.residual) {
             *contact += f;
         }

@@ -3,7 +3,7 @@
 use super::impulse::{is_impulse, kicked, stop};
 use super::integrator::Integrator;
 use super::quasi_static::pairs;
-use super::sight::{Acting, Ended, Sight, in_space};
+use super::sight::{Acting, Ended, InertialFrame, in_space};
 use crate::contact::look;
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -21,7 +21,9 @@ use crate::solve::inertia::in_motion;
 use crate::solve::inertia::{Inertia, times};
 use crate::solve::iteration::{Load, Task};
 use crate::solve::solver::{Solver, entries};
-use crate::system::{BodyFrames, Cause, Constraints, Rate, Spinning, Stage, State, StepFailure};
+use crate::system::{
+    BodyFrames, Cause, Constraints, IncrementalRotation, Rate, Stage, State, StepFailure,
+};
 use crate::time::Trial;
 use crate::time::newmark::{Increment, error_factor};
 use crate::time::scheme::Alphas;
@@ -81,7 +83,7 @@ struct IncrementStart<'a> {
 struct IncrementScheme<'a> {
     increment: &'a Increment<'a>,
     weights: [f64; 2],
-    spinning: &'a Spinning,
+    spinning: &'a IncrementalRotation,
 }
 
 /// What the equilibrium at the stage is sought with.
@@ -123,7 +125,7 @@ impl Implicit {
         trial: Trial,
     ) -> Result<Accepted, StepFailure> {
         let way = (1.0 - self.alphas.alpha_f) * (trial.to - trial.from);
-        let sight = Sight::new(model, frame, way);
+        let sight = InertialFrame::new(model, frame, way);
         let inside = sight.inside(model);
         let mut external = Vec::new();
         sight.load(model, &inside.state.u, trial.to, &mut external);
@@ -190,7 +192,7 @@ impl Implicit {
         }
         constraints.impose(&mut u);
         model.links.impose(&mut u);
-        let still = Spinning::default();
+        let still = IncrementalRotation::default();
         let spinning = sight.as_ref().map_or(&still, |sight| &sight.spinning);
         let now = IncrementScheme {
             increment: &increment,

@@ -19,7 +19,7 @@ use crate::model::frame::{Frame, Motion};
 use crate::solve::inertia::Inertia;
 use crate::solve::inertia::in_motion;
 use crate::solve::solver::{Solver, entries};
-use crate::system::{Links, Spinning, Stage, State, StepFailure};
+use crate::system::{IncrementalRotation, Links, Stage, State, StepFailure};
 use crate::time::Trial;
 use crate::time::scheme::Alphas;
 
@@ -288,7 +288,7 @@ fn begin_along_mode(
 fn at_start(model: &Model, frame: &Frame, t: f64, dt: f64) -> (State, State) {
     let v = &frame.state.v;
     let mut u = frame.state.u.clone();
-    Spinning::new(&model.frames, &frame.state.u).enter(&mut u);
+    IncrementalRotation::new(&model.frames, &frame.state.u).enter(&mut u);
     let before = State {
         t: t - dt,
         u: u.iter().zip(v).map(|(u, v)| u - dt * v).collect(),
@@ -331,7 +331,7 @@ pub(crate) fn initial_contact(
     let stored = stored?;
     frame.ledger.initial += stored;
     frame.ledger.contact += stored;
-    Spinning::new(&model.frames, u).outward(&vec![0.0; u.len()], &mut forces);
+    IncrementalRotation::new(&model.frames, u).outward(&vec![0.0; u.len()], &mut forces);
     let (couplings, memory) = (&contact.couplings, &mut contacts.couplings);
     couplings.begin_motion(memory, t, &frame.state.v);
     let at = State {
@@ -430,9 +430,9 @@ fn initial_acceleration(
     let mut force: Vec<f64> = (0..internal.len())
         .map(|i| frame.load[i] - internal[i] - damping[i] - frame.contact[i])
         .collect();
-    let spinning = Spinning::new(&model.frames, &frame.state.u);
+    let spinning = IncrementalRotation::new(&model.frames, &frame.state.u);
     if !spinning.is_empty() {
-        spinning.into_axes(&mut force);
+        spinning.to_body_axes(&mut force);
         let v = &frame.state.v;
         spinning.add_steady(-1.0, (v, &inertia.mass_times(v)), &mut force);
     }

@@ -3,7 +3,7 @@
 //! Nodal masses do not depend on direction, so that motion has the same equations along the axes of any frame that stands still. From one that stands where the
 //! body will be, it turns by as little as that is wrong, so that matrices that were factored once are good derivatives.
 //!
-//! Rigid bodies have their motion among the unknowns; in space it is counted from the start of the increment ([`Spinning`]).
+//! Rigid bodies have their motion among the unknowns; in space it is counted from the start of the increment ([`IncrementalRotation`]).
 
 use std::sync::Arc;
 
@@ -13,7 +13,8 @@ use crate::model::frame::{Frame, Motion};
 use crate::newton::Converged;
 use crate::solve::accepted::Accepted;
 use crate::system::{
-    BodyFrame, BodyFrames, BodyTurn, Carrier, Cause, Constraints, Spinning, State, StepFailure,
+    BodyFrame, BodyFrames, BodyTurn, Carrier, Cause, Constraints, IncrementalRotation, State,
+    StepFailure,
 };
 use crate::time::newmark::Increment;
 use crate::time::scheme::Alphas;
@@ -35,7 +36,7 @@ pub(super) struct Acting<'a> {
     /// External forces `[N]`.
     pub external: Vec<f64>,
     /// From where bodies that turn freely are seen, if any do.
-    pub sight: Option<Sight<'a>>,
+    pub sight: Option<InertialFrame<'a>>,
 }
 
 impl<'a> Acting<'a> {
@@ -56,7 +57,7 @@ pub(super) struct Ended<'a> {
 }
 
 /// From where bodies that turn freely are seen in an increment.
-pub(super) struct Sight<'a> {
+pub(super) struct InertialFrame<'a> {
     /// The start, along the axes of space.
     pub outer: &'a Frame,
     /// The frames of elastic bodies.
@@ -64,10 +65,10 @@ pub(super) struct Sight<'a> {
     /// Those and the ones of rigid bodies: what interfaces need.
     pub all: Arc<BodyFrames>,
     /// How rigid bodies turn.
-    pub spinning: Spinning,
+    pub spinning: IncrementalRotation,
 }
 
-impl<'a> Sight<'a> {
+impl<'a> InertialFrame<'a> {
     /// From where the frames of the bodies will be after this time, if they go on as they do.
     pub fn new(model: &Model, frame: &'a Frame, after: f64) -> Self {
         let bodies = &model.corotations;
@@ -76,7 +77,7 @@ impl<'a> Sight<'a> {
         let each = turns.iter().zip(spins);
         let ahead = each
             .map(|(turn, [spin, velocity])| turn.moved(scale(after, spin), scale(after, velocity)));
-        Sight::from(model, frame, &ahead.collect::<Vec<_>>())
+        InertialFrame::from(model, frame, &ahead.collect::<Vec<_>>())
     }
 
     /// From frames that are there.
@@ -89,11 +90,11 @@ impl<'a> Sight<'a> {
         });
         let all: Vec<BodyFrame> = all.collect();
         let carried = model.frames.from_here(&frame.state.u);
-        Sight {
+        InertialFrame {
             outer: frame,
             all: Arc::new(carried.with(all.iter().cloned())),
             frames: BodyFrames::new(model.dofs, all),
-            spinning: Spinning::new(&model.frames, &frame.state.u),
+            spinning: IncrementalRotation::new(&model.frames, &frame.state.u),
         }
     }
 
@@ -110,7 +111,7 @@ impl<'a> Sight<'a> {
         let acting = |values: &[f64]| {
             let mut values = turned(values);
             if !values.is_empty() {
-                self.spinning.into_axes(&mut values);
+                self.spinning.to_body_axes(&mut values);
             }
             values
         };
@@ -196,7 +197,7 @@ impl<'a> Sight<'a> {
         let seen = self.out(&model.mesh.points, u);
         *out = self.outer.external_at(model, t, &seen);
         self.frames.turn_in(&[], out);
-        self.spinning.into_axes(out);
+        self.spinning.to_body_axes(out);
         self.spinning.lean(u, out);
     }
 
@@ -285,7 +286,7 @@ pub(super) fn frames_here(model: &Model, u: &[f64]) -> Option<Arc<BodyFrames>> {
 }
 
 /// What an increment is seen from, without its start.
-pub(super) type Outlook = (BodyFrames, Spinning);
+pub(super) type Outlook = (BodyFrames, IncrementalRotation);
 
 /// An increment that was found as bodies are seen, along the axes of space.
 pub(super) fn in_space(

@@ -6,7 +6,7 @@
 
 use super::implicit::difference;
 use super::quasi_static::{QuasiStatic, pairs};
-use super::sight::{Ended, Sight, in_space};
+use super::sight::{Ended, InertialFrame, in_space};
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
@@ -35,7 +35,7 @@ impl QuasiStatic {
                 true => model.corotations.turns(&vec![0.0; u.len()]),
                 false => model.corotations.turns(&u),
             };
-            let sight = Sight::from(model, frame, &turns);
+            let sight = InertialFrame::from(model, frame, &turns);
             let seen = sight.place(&model.mesh.points, &u);
             let found = pass(&sight, model, contact, solver, trial, passes, seen);
             let (met, accepted) = found?;
@@ -53,7 +53,7 @@ impl QuasiStatic {
 /// Solves a quasi-static increment with the forces that bodies have at the displacements `u`, as far as the stiffness does not give them; whether these hold
 /// where it ends, too.
 fn pass(
-    sight: &Sight,
+    sight: &InertialFrame,
     model: &Model,
     contact: &mut Contact,
     solver: &mut Solver,

@@ -4,7 +4,7 @@
 //! dofs the mean square of `(√m ξ)ᵀ e = zᵀ r`, `z = A⁻¹ √m ξ`, is `Σ m e²`. `zᵀ r` is a sum over products of `z` with the matrices and the basis, which are known before the
 //! mode is: no mode costs an operation over all dofs (Smetana, Zahm and Patera, Randomized residual-based error estimators for parametrized equations, 2019).
 
-use super::linear::Rub;
+use super::linear::FrictionTerms;
 use super::quadratic::Eigen;
 use super::reduced::{Reduced, bordered, projected};
 use super::shifted::Shifted;
@@ -76,7 +76,7 @@ impl Estimate {
     }
 
     /// What modes, in the coordinates of the space, leave open with such friction, relative to what is in them.
-    pub fn open(&self, space: &Reduced, rub: Rub, modes: &[Eigen]) -> Vec<f64> {
+    pub fn open(&self, space: &Reduced, rub: FrictionTerms, modes: &[Eigen]) -> Vec<f64> {
         let [f, g] = rub.factors;
         let along = |pairs| projected(&self.at_rest, &space.basis, pairs);
         let friction = along(rub.friction.iter().collect());

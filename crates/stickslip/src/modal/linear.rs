@@ -49,7 +49,7 @@ impl Pair {
 
 /// Friction: what it adds to stiffness and damping. Factors: of what follows motion across the surface, and of what goes with the pressure at hand.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Rub<'a> {
+pub(crate) struct FrictionTerms<'a> {
     pub friction: &'a [Pair],
     pub drag: &'a [Pair],
     pub factors: [f64; 2],
@@ -140,8 +140,8 @@ impl Linear {
     }
 
     /// All friction times a factor.
-    pub fn rub(&self, factor: f64) -> Rub<'_> {
-        Rub {
+    pub fn rub(&self, factor: f64) -> FrictionTerms<'_> {
+        FrictionTerms {
             friction: &self.friction,
             drag: &self.drag,
             factors: [factor; 2],

@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 use super::companion::{Asked, fastest, lifted};
 use super::estimate::Estimate;
 use super::few::Few;
-use super::linear::{Linear, Rub};
+use super::linear::{FrictionTerms, Linear};
 use super::outcome::{FrictionMap, MapRow};
 use super::quadratic::{Eigen, UNSTABLE, residuals};
 use super::real::lowest;
@@ -92,9 +92,9 @@ impl<'a> Over<'a> {
     }
 
     /// Friction at hand.
-    fn rub(&self) -> Rub<'_> {
+    fn rub(&self) -> FrictionTerms<'_> {
         let linear = self.rubbed.as_ref().unwrap_or(self.shifted.linear);
-        Rub {
+        FrictionTerms {
             factors: self.factors,
             ..linear.rub(1.0)
         }

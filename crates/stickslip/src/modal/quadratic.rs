@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
-use super::linear::{Linear, Pair, Rub, add_pairs};
+use super::linear::{FrictionTerms, Linear, Pair, add_pairs};
 use super::shifted::{Root, Shifted};
 use crate::linear::{Complex, Krylov, arnoldi};
 
@@ -159,7 +159,7 @@ pub(super) fn order(a: &Complex, b: &Complex) -> Ordering {
 }
 
 /// What is left of the equations of motion with such friction, real and imaginary part.
-pub(crate) fn open(linear: &Linear, eigen: &Eigen, rub: Rub) -> [Vec<f64>; 2] {
+pub(crate) fn open(linear: &Linear, eigen: &Eigen, rub: FrictionTerms) -> [Vec<f64>; 2] {
     let [l, w] = eigen.value;
     let powers = [[1.0, 0.0], [l, w], [l * l - w * w, 2.0 * l * w]];
     let [x, y] = [0, 1].map(|k| linear.forces(&eigen.vector[k], rub));
@@ -177,7 +177,7 @@ pub(crate) fn open(linear: &Linear, eigen: &Eigen, rub: Rub) -> [Vec<f64>; 2] {
 pub(crate) fn residuals(
     shifted: &Shifted,
     modes: &[Eigen],
-    rub: Rub,
+    rub: FrictionTerms,
     solves: &mut usize,
 ) -> (Vec<f64>, Vec<Vec<f64>>) {
     let open = modes.iter().flat_map(|e| open(shifted.linear, e, rub));

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::linear::{Linear, Pair, Rub, add_pairs, fault, product};
+use super::linear::{FrictionTerms, Linear, Pair, add_pairs, fault, product};
 use crate::error::RunError;
 use crate::linear::{BlockCsr, DenseLu, Factor, LinearError, Symbolic, noise};
 use crate::math::vector::dot;
@@ -268,7 +268,7 @@ impl Root {
 
 impl Linear {
     /// Forces of stiffness, damping and mass of a displacement, with such friction.
-    pub fn forces(&self, x: &[f64], rub: Rub) -> [Vec<f64>; 3] {
+    pub fn forces(&self, x: &[f64], rub: FrictionTerms) -> [Vec<f64>; 3] {
         let mut k = self.times(&self.stiffness, x);
         add_pairs(rub.friction, rub.factors[0], x, &mut k);
         let mut c = self.damped(x);

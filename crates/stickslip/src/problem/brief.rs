@@ -24,37 +24,35 @@ enum Among<'a> {
     Listed,
 }
 
-impl Problem {
-    /// The problem as a short text, which gives the same problem again: keys that say what holds without them are left out.
-    ///
-    /// # Errors
-    /// As [`Problem::to_toml`].
-    pub fn to_brief_toml(&self) -> Result<String, ProblemError> {
-        let text = self.to_toml()?;
-        let root = Table::parse_recoverable(&text).0.into_inner();
-        let mut out = String::new();
-        for (kind, value) in tree::in_order(&root) {
-            match value.get_ref() {
-                DeValue::Table(all) if all.values().all(|v| v.get_ref().is_table()) => {
-                    for (name, table) in tree::in_order(all) {
-                        section(
-                            &mut out,
-                            kind.get_ref(),
-                            Among::Named(name.get_ref()),
-                            table,
-                        );
-                    }
+/// A problem as a short text, which gives the same problem again: keys that say what holds without them are left out.
+///
+/// # Errors
+/// As [`Problem::to_toml`].
+pub fn brief_toml(problem: &Problem) -> Result<String, ProblemError> {
+    let text = problem.to_toml()?;
+    let root = Table::parse_recoverable(&text).0.into_inner();
+    let mut out = String::new();
+    for (kind, value) in tree::in_order(&root) {
+        match value.get_ref() {
+            DeValue::Table(all) if all.values().all(|v| v.get_ref().is_table()) => {
+                for (name, table) in tree::in_order(all) {
+                    section(
+                        &mut out,
+                        kind.get_ref(),
+                        Among::Named(name.get_ref()),
+                        table,
+                    );
                 }
-                DeValue::Table(_) => section(&mut out, kind.get_ref(), Among::Alone, value),
-                DeValue::Array(all) => {
-                    let tables = all.iter();
-                    tables.for_each(|t| section(&mut out, kind.get_ref(), Among::Listed, t));
-                }
-                value => out += &format!("{kind} = {}\n", text_of(value), kind = kind.get_ref()),
             }
+            DeValue::Table(_) => section(&mut out, kind.get_ref(), Among::Alone, value),
+            DeValue::Array(all) => {
+                let tables = all.iter();
+                tables.for_each(|t| section(&mut out, kind.get_ref(), Among::Listed, t));
+            }
+            value => out += &format!("{kind} = {}\n", text_of(value), kind = kind.get_ref()),
         }
-        Ok(out)
     }
+    Ok(out)
 }
 
 /// Writes a table under its heading, or nothing if that would say as much.

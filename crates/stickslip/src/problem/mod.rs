@@ -56,6 +56,7 @@ use crate::error::{Diagnostic, Error, ProblemError};
 
 pub use amplitude::AmplitudeTable;
 pub use body::{Body, BodyRotation, GmshFile, MeshSource, Rayleigh};
+pub use brief::brief_toml;
 pub use build::Meshes;
 pub use changes::changed_keys;
 pub use coupling::Coupling;

@@ -24,7 +24,7 @@
 //!
 //! Where jumps over cycles are chosen there is a checkpoint between two blocks only: what a block has found may be taken back.
 //!
-//! An attempt changes nothing of this but what is in [`Working`]; a run that is stopped in the middle of one goes back to that of its beginning, so that
+//! An attempt changes nothing of this but what is in [`AttemptState`]; a run that is stopped in the middle of one goes back to that of its beginning, so that
 //! the increment is tried again with the same bits.
 
 use std::collections::VecDeque;
@@ -57,14 +57,14 @@ pub struct Checkpoint {
     pub(super) summary: Summary,
     pub(super) watches: Vec<Watch>,
     pub(super) loops: Vec<Loop>,
-    pub(super) working: Working,
+    pub(super) working: AttemptState,
 }
 
 /// How far the steps are.
 #[derive(Clone, crate::keep::Keep)]
 pub(super) struct Position {
     pub next: usize,
-    pub running: Option<Standing>,
+    pub running: Option<StepProgress>,
     /// The analysis has ended, well or not.
     pub over: bool,
 }
@@ -73,12 +73,12 @@ pub(super) struct Position {
 ///
 /// [`Increments`]: super::position::Increments
 #[derive(Clone, crate::keep::Keep)]
-pub(super) struct Standing {
+pub(super) struct StepProgress {
     pub pace: Pace,
     pub accepted: usize,
     pub attempt: usize,
     pub opened: Option<(f64, i32)>,
-    pub vain: bool,
+    pub no_progress: bool,
     pub too_long: f64,
     pub tight: bool,
     pub failed: Option<Failed>,
@@ -87,7 +87,7 @@ pub(super) struct Standing {
 
 /// The state that attempts change.
 #[derive(Clone, crate::keep::Keep)]
-pub(crate) struct Working {
+pub(crate) struct AttemptState {
     pub(super) interfaces: Vec<Memory>,
     pub(super) couplings: CouplingsState,
     pub(super) explicit: Option<ExplicitState>,

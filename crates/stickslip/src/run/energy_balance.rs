@@ -51,7 +51,7 @@ pub(super) fn check_energy_balance(
         let length = trial.to - trial.from;
         let resolved = opened <= may || resolves(run, trial, &after);
         let smallest = 0.5 * length < run.step().increments.smallest;
-        let was_vain = running.vain;
+        let was_vain = running.no_progress;
         if is_to_halve(running, length, [opened, may], resolved, smallest) {
             let message = format!(
                 "the balance of energies opens by {opened:.3e} over the increment, more than its share of what the limit leaves"
@@ -61,8 +61,8 @@ pub(super) fn check_energy_balance(
         // Where the limit is passed already, or smaller increments are in vain, they are as long as they would be without it; and up to a length that was
         // found too long nobody knows that one is.
         let long = 2.0 * length >= running.too_long * (1.0 - ROUNDED);
-        accepted.hard |= long && may > 0.0 && !running.vain && opened > may / ORDER;
-        if running.vain && !was_vain {
+        accepted.hard |= long && may > 0.0 && !running.no_progress && opened > may / ORDER;
+        if running.no_progress && !was_vain {
             running.stepper.bound(length * f64::powi(2.0, USELESS));
         }
     }
@@ -161,7 +161,7 @@ fn is_to_halve(
     smallest: bool,
 ) -> bool {
     if may <= 0.0 || opened <= may {
-        running.vain = false;
+        running.no_progress = false;
         return false;
     }
     let halved = (2.0 * length - running.too_long).abs() <= ROUNDED * running.too_long;
@@ -171,8 +171,8 @@ fn is_to_halve(
     };
     running.opened = resolved.then_some((opened, useless));
     running.too_long = length;
-    running.vain |= resolved && useless >= USELESS;
-    !running.vain && !smallest
+    running.no_progress |= resolved && useless >= USELESS;
+    !running.no_progress && !smallest
 }
 
 #[cfg(test)]
@@ -210,7 +210,7 @@ mod tests {
             accepted: 0,
             attempt: 1,
             opened: None,
-            vain: false,
+            no_progress: false,
             too_long: f64::INFINITY,
             tight: false,
             jumps: Default::default(),
@@ -221,19 +221,19 @@ mod tests {
             // What it may is a part of what the limit leaves for the time that is left.
             let balance = [1e3 * length.powi(power), length];
             if !is_to_halve(&mut running, length, balance, true, false) {
-                return (halvings, running.vain);
+                return (halvings, running.no_progress);
             }
         }
-        (100, running.vain)
+        (100, running.no_progress)
     }
 
     #[test]
     fn halving_ends_where_many_small_increments_come_to_no_less_than_one() {
-        let (halvings, vain) = halved(1);
-        assert!(vain && halvings < 8, "{halvings}");
+        let (halvings, no_progress) = halved(1);
+        assert!(no_progress && halvings < 8, "{halvings}");
         for power in [2, 3] {
-            let (halvings, vain) = halved(power);
-            assert!(!vain && halvings < 12, "{power}: {halvings}");
+            let (halvings, no_progress) = halved(power);
+            assert!(!no_progress && halvings < 12, "{power}: {halvings}");
         }
     }
 }

@@ -41,7 +41,7 @@ pub(super) struct Judges {
     /// Points at which criteria of fatigue are asked.
     pub watched: Option<fatigue::Watched>,
     /// Bodies that no interface joins.
-    pub unjoined: doctor::Unjoined,
+    pub unjoined: doctor::MissingInterface,
     /// Cells at the probes; `None` at rigid bodies.
     pub around: Vec<Option<Around>>,
 }
@@ -122,7 +122,7 @@ impl Run {
                     .iter()
                     .map(|p| probed(p.point))
                     .collect(),
-                unjoined: doctor::Unjoined::new(&scene),
+                unjoined: doctor::MissingInterface::new(&scene),
                 loops: vec![Loop::default(); contact.interfaces.len()],
                 shares: loops::shares(&model),
                 watched: fatigue::watched(&model, &contact),

@@ -1,6 +1,6 @@
 //! How far an analysis has come.
 
-use super::checkpoint::Standing;
+use super::checkpoint::StepProgress;
 use super::jumps::Jumps;
 use super::queue::Failed;
 use crate::model::definition::Step;
@@ -25,7 +25,7 @@ pub(super) struct Increments {
     /// By how much the balance of energies opened over the last increment that was found too long, and how many halvings in a row had not helped by then.
     pub(super) opened: Option<(f64, i32)>,
     /// Smaller increments make the balance of energies open no less.
-    pub(super) vain: bool,
+    pub(super) no_progress: bool,
     /// The length of that increment; infinite before there was one.
     pub(super) too_long: f64,
     /// The last increment must not be followed by a longer one.
@@ -47,7 +47,7 @@ impl Increments {
             accepted: 0,
             attempt: 1,
             opened: None,
-            vain: false,
+            no_progress: false,
             too_long: f64::INFINITY,
             tight: false,
             failed: None,
@@ -56,13 +56,13 @@ impl Increments {
     }
 
     /// Where they stand.
-    pub fn standing(&self) -> Standing {
-        Standing {
+    pub fn standing(&self) -> StepProgress {
+        StepProgress {
             pace: self.stepper.pace(),
             accepted: self.accepted,
             attempt: self.attempt,
             opened: self.opened,
-            vain: self.vain,
+            no_progress: self.no_progress,
             too_long: self.too_long,
             tight: self.tight,
             failed: self.failed.clone(),
@@ -71,13 +71,13 @@ impl Increments {
     }
 
     /// Those of a step that go on from where they stood.
-    pub fn at(step: &Step, standing: Standing) -> Self {
+    pub fn at(step: &Step, standing: StepProgress) -> Self {
         Increments {
             stepper: Increments::of(step).stepper.at(standing.pace),
             accepted: standing.accepted,
             attempt: standing.attempt,
             opened: standing.opened,
-            vain: standing.vain,
+            no_progress: standing.no_progress,
             too_long: standing.too_long,
             tight: standing.tight,
             failed: standing.failed,

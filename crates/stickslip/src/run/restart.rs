@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use super::checkpoint::{Checkpoint, Position, Working};
+use super::checkpoint::{AttemptState, Checkpoint, Position};
 use super::parts::Run;
 use super::position::{Increments, Steps};
 use crate::contact::interface::{History, memory, remember};
@@ -17,7 +17,7 @@ use crate::model::frame::Frame;
 use crate::time::scheme::Method;
 
 /// All state from which the analysis goes on, with that which attempts change.
-pub(super) fn checkpoint_with(run: &Run, working: Working) -> Checkpoint {
+pub(super) fn checkpoint_with(run: &Run, working: AttemptState) -> Checkpoint {
     Checkpoint {
         frame: run.frame.clone(),
         position: Position {
@@ -35,9 +35,9 @@ pub(super) fn checkpoint_with(run: &Run, working: Working) -> Checkpoint {
 }
 
 /// The state that attempts change.
-pub(super) fn attempt_state(run: &Run) -> Working {
+pub(super) fn attempt_state(run: &Run) -> AttemptState {
     let interfaces = run.contact.interfaces.iter().zip(&run.solver.conditions);
-    Working {
+    AttemptState {
         interfaces: interfaces
             .map(|(i, conditions)| memory(i, conditions))
             .collect(),
@@ -128,7 +128,7 @@ fn integration(model: &Model, step: usize, explicit: Option<ExplicitState>) -> I
 }
 
 /// Whether a checkpoint is one of this model, by all lengths that there are.
-fn fits(run: &Run, frame: &Frame, working: &Working) -> Result<(), Error> {
+fn fits(run: &Run, frame: &Frame, working: &AttemptState) -> Result<(), Error> {
     let n = run.model.dofs.count();
     let interfaces = run.contact.interfaces.len();
     let fits = frame.state.u.len() == n

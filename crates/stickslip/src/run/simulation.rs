@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use super::attempt::{attempt, prepare, propose};
 use super::begin::begin_step;
-use super::checkpoint::{Checkpoint, Working};
+use super::checkpoint::{AttemptState, Checkpoint};
 use super::cycles::{begin_block, begins_block};
 use super::ending::close;
 use super::energy_balance::check_energy_balance;
@@ -40,7 +40,7 @@ pub struct Simulation {
     /// Increments at the last checkpoint, and when it was taken.
     saved: (usize, Instant),
     /// What the attempt at hand may change, as it was at its beginning, where a run may be stopped in the middle of one.
-    before: Option<Working>,
+    before: Option<AttemptState>,
 }
 
 impl Deref for Simulation {

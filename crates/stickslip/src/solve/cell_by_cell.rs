@@ -4,7 +4,7 @@ use crate::body::Elastic;
 use crate::linear::BlockCsr;
 use crate::math::vector::dot;
 use crate::model::definition::Model;
-use crate::newton::Curved;
+use crate::newton::NonlinearBody;
 
 /// Bodies of which some turn cell by cell ([`Elastic::corotational`](crate::body::Elastic::corotational)).
 pub(super) struct Cells<'a> {
@@ -63,7 +63,7 @@ impl<'a> Pressed<'a> {
     }
 }
 
-impl Curved for Pressed<'_> {
+impl NonlinearBody for Pressed<'_> {
     fn forces(&self, u: &[f64], out: &mut [f64]) {
         self.bodies.press(self.t, u, out);
         let now = out.to_vec();

@@ -15,7 +15,7 @@ pub(crate) struct Closure {
     /// How far each loose body has moved `[m]`, as the largest displacement.
     pub moved: Vec<f64>,
     /// Loose bodies that their loads push away from everything.
-    pub adrift: Vec<usize>,
+    pub unbalanced: Vec<usize>,
 }
 
 /// Force relative to the sum of the sizes of its parts that is rounding.
@@ -80,7 +80,7 @@ pub(crate) fn close(
         pulls[dof] += force;
     }
     let mut u = frame.state.u.clone();
-    let mut adrift = Vec::new();
+    let mut unbalanced = Vec::new();
     for _ in 0..MOST_STRETCHES {
         let w = velocities(model, &clusters, external, &pulls, &pushes);
         if w.iter().all(|w| *w == 0.0) {
@@ -110,7 +110,7 @@ pub(crate) fn close(
                 f.points(model).any(|p| norm(dofs.vector(&w, p)) != 0.0)
             };
             let all = free.iter().enumerate();
-            adrift = all.filter(|(_, f)| moving(f)).map(|(k, _)| k).collect();
+            unbalanced = all.filter(|(_, f)| moving(f)).map(|(k, _)| k).collect();
             break;
         }
         u.iter_mut().zip(&w).for_each(|(u, w)| *u += way * w);
@@ -131,7 +131,7 @@ pub(crate) fn close(
     Closure {
         moved: moved.collect(),
         u,
-        adrift,
+        unbalanced,
     }
 }
 

@@ -24,7 +24,7 @@ pub(crate) struct Floating {
     /// Contact alone was found not to be enough in this step: the anchors stay.
     pub(super) stay: bool,
     /// Nothing holds the bodies: they have been followed in vain.
-    pub(super) vain: bool,
+    pub(super) no_progress: bool,
     /// How often the bodies were moved as rigid ones in this increment.
     pub(super) moved: usize,
     /// How often anchors proved too weak in this step.
@@ -138,7 +138,7 @@ impl Floating {
         step.dynamic.is_none()
             && (floating.astray || matches!(failure.cause, Cause::Singular | Cause::LinearSolver))
             && floating.anchors.is_none()
-            && !floating.vain
+            && !floating.no_progress
             && !floating.bodies().is_empty()
     }
 
@@ -171,11 +171,11 @@ impl Floating {
                 Err(failure)
             }
             Err(failure) => {
-                let adrift = anchors.adrift();
+                let unbalanced = anchors.unbalanced();
                 floating.anchors = None;
                 floating.moved = 0;
-                floating.weak = !adrift;
-                if !adrift {
+                floating.weak = !unbalanced;
+                if !unbalanced {
                     // Smaller increments may help; anchors once more would not.
                     let cause = match failure.cause {
                         Cause::Singular | Cause::LinearSolver => Cause::NotConverged,
@@ -183,7 +183,7 @@ impl Floating {
                     };
                     return Err(StepFailure { cause, ..failure });
                 }
-                floating.vain = true;
+                floating.no_progress = true;
                 let far = floating.first(scene, trial);
                 Err(StepFailure {
                     cause: Cause::Singular,

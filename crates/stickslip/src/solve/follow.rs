@@ -92,7 +92,11 @@ impl Solver {
         self.find_floating_bodies(model, frame, contact);
         let floating = &self.floating;
         let bodies = floating.bodies();
-        if bodies.is_empty() || floating.anchors.is_some() || floating.vain || floating.moved > 0 {
+        if bodies.is_empty()
+            || floating.anchors.is_some()
+            || floating.no_progress
+            || floating.moved > 0
+        {
             return false;
         }
         let contacts = self.contacts(frame);
@@ -127,7 +131,7 @@ impl Solver {
     ) {
         self.close_all(model, frame, contact, trial);
         self.floating.stay = true;
-        if !self.floating.vain {
+        if !self.floating.no_progress {
             self.anchor(model, frame, contact, trial);
         }
     }
@@ -163,8 +167,8 @@ impl Solver {
             // As far as there is room.
             origin.gaps += closure.moved.iter().copied().fold(0.0, f64::max);
         }
-        if !closure.adrift.is_empty() {
-            self.floating.vain = true;
+        if !closure.unbalanced.is_empty() {
+            self.floating.no_progress = true;
             return false;
         }
         if names.is_empty() {

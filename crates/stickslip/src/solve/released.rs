@@ -90,7 +90,7 @@ impl Solver {
     pub fn is_to_keep_bodies(&self, model: &Model, frame: &Frame, trial: Trial) -> bool {
         let floating = &self.floating;
         floating.anchors.is_none()
-            && !floating.vain
+            && !floating.no_progress
             && !floating.bodies().is_empty()
             && floating.lose_load(model, frame, trial)
     }

@@ -16,7 +16,7 @@ use crate::model::contact::Contact;
 use crate::model::definition::{Model, Solution};
 use crate::model::frame::{ContactMemory, Frame};
 use crate::newton::condensed::{Identity, Library};
-use crate::newton::{Converged, CurvedBulk, Factors, Newton, SparseBulk};
+use crate::newton::{Converged, Factors, Newton, NonlinearBulk, SparseBulk};
 use crate::system::{State, StepFailure};
 
 /// What solves increments: nothing in it is part of a result, and all of it can be made again.
@@ -155,7 +155,13 @@ impl Solver {
                 seen: &mut self.seen,
                 model,
                 forces,
-                bulk: &mut CurvedBulk::new(&pressed, &self.diagonal, external, fixed, linearised),
+                bulk: &mut NonlinearBulk::new(
+                    &pressed,
+                    &self.diagonal,
+                    external,
+                    fixed,
+                    linearised,
+                ),
                 rate: task.rate,
                 frames: task.frames,
             }

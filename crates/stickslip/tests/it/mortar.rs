@@ -451,8 +451,8 @@ step = [{{ increments = {{ fixed = 2 }} }}]
 #[test]
 fn quadratic_faces_on_obstacles_have_the_pressure_of_hertz() {
     let plane = "plane = { point = [0, 0, -10], normal = [0, 0, 1] }";
-    let hollow = "sphere = { centre = [0, 0, 15], radius = 25, inside = true }";
-    for (element, obstacle, curvature) in [("hex20", plane, 0.0), ("tet10", hollow, 0.04)] {
+    let wear_gap = "sphere = { centre = [0, 0, 15], radius = 25, inside = true }";
+    for (element, obstacle, curvature) in [("hex20", plane, 0.0), ("tet10", wear_gap, 0.04)] {
         let (worst, force) = ball_on_obstacle(element, obstacle, curvature);
         assert!(worst < 0.05, "{element} on {obstacle}: {worst}");
         assert!((force / 250.0 - 1.0).abs() < 1e-3, "{element}: {force}");

@@ -77,7 +77,7 @@ pub fn lanczos(pencil: &Pencil, wanted: Wanted) -> RealModes {
     let mut out = RealModes::default();
     let mut seed = 0x5eed;
     let mut start: Vec<Vec<f64>> = Vec::new();
-    let mut vain = 0;
+    let mut no_progress = 0;
     for _ in 0..MOST_PASSES {
         while start.len() < BLOCK {
             let fresh: Vec<f64> = (0..pencil.size).map(|_| noise(&mut seed)).collect();
@@ -98,8 +98,12 @@ pub fn lanczos(pencil: &Pencil, wanted: Wanted) -> RealModes {
             out.complete = true;
             break;
         }
-        vain = if found.len() == before { vain + 1 } else { 0 };
-        if vain == 6 {
+        no_progress = if found.len() == before {
+            no_progress + 1
+        } else {
+            0
+        };
+        if no_progress == 6 {
             break;
         }
     }

@@ -1,14 +1,14 @@
 use std::sync::Arc;
 
-use super::contract::{FactorEffort, Interior, Ordered};
+use super::contract::{Analysed, FactorEffort, Interior};
 use super::split::Split;
 use crate::linear::{LinearError, Matrix, Schur, Workspace};
 
 /// A part of which nothing is eliminated, as of a rigid body: its own rows are what is left.
 #[derive(Debug)]
-pub(super) struct Bare(pub Split);
+pub(super) struct Undivided(pub Split);
 
-impl Ordered for Bare {
+impl Analysed for Undivided {
     fn interior(&self) -> &[u32] {
         &self.0.interior
     }
@@ -63,10 +63,10 @@ impl Ordered for Bare {
 
 /// The interior that there is not.
 #[derive(Debug)]
-struct Nothing(Arc<Bare>);
+struct Nothing(Arc<Undivided>);
 
 impl Interior for Nothing {
-    fn ordered(&self) -> &dyn Ordered {
+    fn ordered(&self) -> &dyn Analysed {
         &*self.0
     }
 

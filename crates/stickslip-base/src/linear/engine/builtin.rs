@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use super::contract::{Cut, Engine, EngineReport, FactorEffort, Interior, Ordered};
+use super::contract::{Analysed, Cut, Engine, EngineReport, FactorEffort, Interior};
 use crate::linear::{BlockCsr, Fronts, LinearError, Matrix, PartialFactor, Schur, Workspace};
 
 /// The multifrontal factorisation of this library, on the threads of this process: the same bits on any number of them.
@@ -30,7 +30,7 @@ impl Engine for Multifrontal {
         self: Arc<Self>,
         matrix: &dyn Matrix,
         (points, fixed, kept): Cut,
-    ) -> Result<Arc<dyn Ordered>, LinearError> {
+    ) -> Result<Arc<dyn Analysed>, LinearError> {
         let fronts = with_entries(matrix, |m| Fronts::analyze(m, points, fixed, kept))?;
         Ok(Arc::new(fronts))
     }
@@ -44,7 +44,7 @@ fn with_entries<T>(matrix: &dyn Matrix, of: impl FnOnce(&BlockCsr) -> T) -> T {
     }
 }
 
-impl Ordered for Fronts {
+impl Analysed for Fronts {
     fn interior(&self) -> &[u32] {
         self.interior()
     }
@@ -81,7 +81,7 @@ impl Ordered for Fronts {
 }
 
 impl Interior for PartialFactor {
-    fn ordered(&self) -> &dyn Ordered {
+    fn ordered(&self) -> &dyn Analysed {
         &**self.fronts()
     }
 

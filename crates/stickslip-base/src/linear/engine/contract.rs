@@ -33,11 +33,11 @@ pub trait Engine: Debug + Send + Sync {
         self: Arc<Self>,
         matrix: &dyn Matrix,
         body: Cut,
-    ) -> Result<Arc<dyn Ordered>, LinearError>;
+    ) -> Result<Arc<dyn Analysed>, LinearError>;
 }
 
 /// A body before it is factored.
-pub trait Ordered: Debug + Send + Sync {
+pub trait Analysed: Debug + Send + Sync {
     /// The eliminated dofs, in the order of vectors that [`Interior`] takes.
     fn interior(&self) -> &[u32];
 
@@ -80,10 +80,10 @@ pub trait Ordered: Debug + Send + Sync {
     ) -> Result<(Box<dyn Interior>, Schur), LinearError>;
 }
 
-/// The factor of the interior of a body. Vectors are in the order of [`Ordered::interior`] and [`Ordered::root`], several columns one after the other.
+/// The factor of the interior of a body. Vectors are in the order of [`Analysed::interior`] and [`Analysed::root`], several columns one after the other.
 pub trait Interior: Debug + Send + Sync {
     /// What was factored.
-    fn ordered(&self) -> &dyn Ordered;
+    fn ordered(&self) -> &dyn Analysed;
 
     /// Reduces forces: `root -= K_CI K_II⁻¹ f_I`. Leaves in `interior` what [`recover`](Interior::recover) wants of them, which is linear in the forces.
     ///

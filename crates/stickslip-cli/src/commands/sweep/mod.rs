@@ -26,7 +26,7 @@ use super::{EngineArguments, library, spare, use_threads};
 use crate::failure::{Failure, Outcome};
 use crate::input::Case;
 use crate::progress::found;
-use crate::voice::{Heartbeat, Voice};
+use crate::voice::{Heartbeat, ProgressPrinter};
 use begun::{Begun, Stand};
 use columns::Columns;
 use effort::EffortTable;
@@ -114,7 +114,7 @@ pub struct Arguments {
 
 /// Runs all, or a part, or merges parts.
 pub fn run(arguments: &Arguments) -> Outcome {
-    let voice = Voice::new();
+    let voice = ProgressPrinter::new();
     if !arguments.merge.is_empty() {
         let tell = |text: &str| {
             if !arguments.quiet {
@@ -307,7 +307,7 @@ struct Runs<'a> {
     plan: &'a Plan,
     case: &'a Case,
     shared: Shared,
-    voice: &'a Voice,
+    voice: &'a ProgressPrinter,
     /// Columns that the next run must have.
     wanted: &'a [String],
     /// What was said of the model.

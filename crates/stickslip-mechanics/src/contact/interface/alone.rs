@@ -9,14 +9,14 @@ use super::scene::Wants;
 use crate::friction::PointLaw;
 use crate::math::vector::dot;
 use crate::math::{add_scaled, scale};
-use crate::system::{InSpace, PointAlone, Stage};
+use crate::system::{InSpace, Stage, StickTrial};
 
 /// What every point would carry if it was pressed and stuck, and within which limit. `None` where laws are not asked point by point, or are none.
 pub(super) fn stick_trials(
     interface: InterfaceInput,
     cache: &mut Cache,
     stage: &Stage,
-) -> Option<Vec<Option<PointAlone>>> {
+) -> Option<Vec<Option<StickTrial>>> {
     if interface.laws.tied
         || interface.laws.user.friction.is_some()
         || interface.laws.user.normal.is_some()
@@ -46,7 +46,7 @@ fn point_alone(
     e: &Evaluation,
     batch: &Batch,
     in_space: &InSpace,
-) -> Option<PointAlone> {
+) -> Option<StickTrial> {
     let tangent = batch.tangent(e)?;
     let n = e.slots.n;
     let line = |q: usize| q * n..(q + 1) * n;
@@ -67,7 +67,7 @@ fn point_alone(
     };
     let (mut dofs, mut rows) = (batch.dofs(e).to_vec(), tangent.rows.to_vec());
     in_space.gradients(&mut dofs, &mut rows);
-    Some(PointAlone {
+    Some(StickTrial {
         dofs,
         rows,
         area: e.area,

@@ -10,7 +10,7 @@ use crate::math::{Vec3, dot};
 pub struct Attempt {
     pub(in crate::contact) multipliers: Vec<Multiplier>,
     /// Status changes, by point.
-    pub(in crate::contact) flips: Vec<Flips>,
+    pub(in crate::contact) flips: Vec<StatusHistory>,
     /// Points whose status changed with the last iterate.
     pub(in crate::contact) changed: usize,
     /// The last evaluation, a tentative one, may become the next iterate.
@@ -31,7 +31,7 @@ impl Attempt {
         self.multipliers
             .extend(histories.iter().map(Multiplier::from));
         self.flips.clear();
-        self.flips.resize(histories.len(), Flips::default());
+        self.flips.resize(histories.len(), StatusHistory::default());
         self.changed = 0;
         self.tentative = false;
         self.before_first_contact = histories.iter().all(|h| h.status == Status::Open);
@@ -80,7 +80,7 @@ const RETURNS: usize = 3;
 
 /// Status changes of a point over the iterations of an attempt.
 #[derive(Debug, Clone, Copy, Default, PartialEq, crate::keep::Keep)]
-pub(in crate::contact) struct Flips {
+pub(in crate::contact) struct StatusHistory {
     pub count: usize,
     /// How often the direction of slip was reversed, and the shear traction when it slid last.
     pub reversals: usize,
@@ -97,7 +97,7 @@ pub(in crate::contact) struct Flips {
     returns: usize,
 }
 
-impl Flips {
+impl StatusHistory {
     /// Takes note of the status after an iteration; whether it has changed.
     pub fn note(&mut self, now: Status) -> bool {
         if self.last[0] == Some(now) {

@@ -215,7 +215,7 @@ impl PointHistory {
             slip: self.slip,
             dissipated: self.dissipated,
             worn: self.worn,
-            hollow: self.hollow,
+            wear_gap: self.wear_gap,
             path: self.path,
             spent: self.spent,
             ..PointHistory::default()
@@ -244,7 +244,7 @@ fn take_over(
     // Overlap that is resolved drives the surfaces apart.
     let [before, now] = increment.times.map(|t| input.offset_at_start(i, t));
     // So does what is worn off, the other way: the bodies come together as it goes.
-    let [before, now] = [before - h.hollow, now - passed.history.hollow];
+    let [before, now] = [before - h.wear_gap, now - passed.history.wear_gap];
     belt_work += 0.5 * (h.pressure + r.traction[0]) * (now - before) * area;
     belt_work += pressed_out(input, i, e) * area;
     let mut damped = 0.0;
@@ -358,7 +358,7 @@ fn pass(
             damping: r.damping,
             dissipated: h.dissipated + dissipated,
             worn: h.worn + worn[0] * covered,
-            hollow: e.hollow,
+            wear_gap: e.wear_gap,
             path: h.path + interface.conditions.cycles() * path,
             spent: h.spent + interface.conditions.cycles() * dissipated,
             limit,

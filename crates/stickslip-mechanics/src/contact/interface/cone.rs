@@ -4,7 +4,7 @@
 use super::belt::{belt_velocity, steady_velocity};
 use super::definition::Primary;
 use super::evaluation::Evaluation;
-use super::history::Cone;
+use super::history::FrictionError;
 use super::parts::InterfaceForce;
 use super::sides::weights_of;
 use crate::contact::law::friction::FrictionPoint;
@@ -20,9 +20,9 @@ const GIVEN: f64 = 1e-2;
 
 /// Judges the last evaluation at the end of an increment, while the history is still that of its start. A point that slips has to carry its
 /// limit, in the tangent plane and not along its slip, with the kinematics of the paper against it; one that sticks carries no more than its limit.
-pub(super) fn friction_error(interface: &InterfaceForce, stage: &Stage) -> Cone {
+pub(super) fn friction_error(interface: &InterfaceForce, stage: &Stage) -> FrictionError {
     let law = interface.laws.friction_law();
-    let mut cone = Cone::default();
+    let mut cone = FrictionError::default();
     if !law.frictional() || interface.laws.tied || !interface.schedule.active(stage.at.t) {
         return cone;
     }

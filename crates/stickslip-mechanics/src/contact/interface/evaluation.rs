@@ -111,7 +111,7 @@ pub(in crate::contact) struct Evaluation {
     pub rounding: f64,
     pub gap: f64,
     /// By how much what is worn off opens it, at the end of the increment.
-    pub hollow: f64,
+    pub wear_gap: f64,
     pub frames: Frames,
     /// Relative slip since the last accepted state, belt included, along the frame of that state.
     pub moved: Vec3,
@@ -119,7 +119,7 @@ pub(in crate::contact) struct Evaluation {
     pub facet: Option<usize>,
     pub xi: [f64; 2],
     /// It stays off the outer edge of the primary, but lies beneath its surface.
-    pub stranded: bool,
+    pub off_edge: bool,
     /// Whether something lies opposite.
     pub over: bool,
     /// Whether it slides all the time.

@@ -14,8 +14,8 @@ use super::scene::Wants;
 use super::symptoms::{LastAttempt, culprit, culprits};
 use crate::math::{add_scaled, larger, scale};
 use crate::system::{
-    ActiveSet, Assembler, Augmentation, ContactPair, Culprit, Force, PointAlone, Stage,
-    StepFailure, Tally,
+    ActiveSet, Assembler, Augmentation, ContactPair, Culprit, Force, Stage, StepFailure,
+    StickTrial, Tally,
 };
 
 impl Force for InterfaceForce<'_> {
@@ -136,7 +136,7 @@ impl Force for InterfaceForce<'_> {
         update_multipliers(self, stage)
     }
 
-    fn alone(&mut self, stage: &Stage) -> Option<Vec<Option<PointAlone>>> {
+    fn alone(&mut self, stage: &Stage) -> Option<Vec<Option<StickTrial>>> {
         let (input, cache) = self.parts();
         stick_trials(input, cache, stage)
     }

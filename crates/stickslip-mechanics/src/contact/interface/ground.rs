@@ -65,7 +65,7 @@ impl Under {
 
 /// The secondary of a ground: its points, its faces and their nodes.
 #[derive(Clone, Copy)]
-pub struct Above<'a> {
+pub struct TrackSampling<'a> {
     /// Points.
     pub points: &'a [ContactPoint],
     /// Faces; none where single points were chosen.
@@ -76,7 +76,7 @@ pub struct Above<'a> {
     pub dim: usize,
 }
 
-impl Above<'_> {
+impl TrackSampling<'_> {
     /// The distance of its points, where they are nearest to each other.
     fn finest(&self) -> f64 {
         let faces = self.skin.iter().map(|s| spacing(&s.facet, self.x));
@@ -177,7 +177,11 @@ fn middles(kind: ElementKind, divisions: usize) -> Vec<[f64; 2]> {
 
 impl Ground {
     /// Of an obstacle; `extent` is that out of the plane, thickness or `2πr`.
-    pub fn of_obstacle(shape: &dyn Shape, above: Above, extent: impl Fn(Vec3) -> f64) -> Self {
+    pub fn of_obstacle(
+        shape: &dyn Shape,
+        above: TrackSampling,
+        extent: impl Fn(Vec3) -> f64,
+    ) -> Self {
         let chart = shape.chart(above.dim, above.finest());
         Self::on(chart, above, extent)
     }
@@ -186,7 +190,7 @@ impl Ground {
     pub fn of_facets(
         facets: &[Facet],
         direction: Vec3,
-        above: Above,
+        above: TrackSampling,
         extent: impl Fn(Vec3) -> f64,
     ) -> Option<Self> {
         let at = facets.iter().map(|facet| {
@@ -202,7 +206,7 @@ impl Ground {
         plane.then(|| Self::on(chart.along(direction), above, extent))
     }
 
-    fn on(chart: Chart, above: Above, extent: impl Fn(Vec3) -> f64) -> Self {
+    fn on(chart: Chart, above: TrackSampling, extent: impl Fn(Vec3) -> f64) -> Self {
         let [least, most] = [0.0, 1.0].map(|r| extent([r, 0.0, 0.0]));
         Ground {
             samples: above.samples(chart.spacing(), &extent),

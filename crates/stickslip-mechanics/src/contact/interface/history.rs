@@ -40,7 +40,7 @@ pub struct History {
     /// Largest velocity of slip below the limit over the last increment `[m/s]`.
     pub(in crate::contact) creep: f64,
     /// Whether the shear is what friction says.
-    pub(in crate::contact) cone: Cone,
+    pub(in crate::contact) cone: FrictionError,
 }
 
 /// Committed history of a contact point.
@@ -66,7 +66,7 @@ pub(in crate::contact) struct PointHistory {
     /// Depth worn off the side with the points `[m]`.
     pub worn: f64,
     /// By how much that of both sides opened the gap `[m]`.
-    pub hollow: f64,
+    pub wear_gap: f64,
     /// Path over which it has worn, cycles that were not computed included `[m]`, and what friction dissipated on it `[J/m²]`.
     pub path: f64,
     pub spent: f64,
@@ -121,7 +121,7 @@ pub(in crate::contact) struct Origin {
 
 /// What is wrong with the shear of an interface after an increment, and what that is relative to.
 #[derive(Debug, Clone, Copy, Default, PartialEq, crate::keep::Keep)]
-pub(in crate::contact) struct Cone {
+pub(in crate::contact) struct FrictionError {
     /// Largest amount by which the shear is not what friction says `[Pa]`.
     pub worst: f64,
     /// Largest limit `[Pa]`.

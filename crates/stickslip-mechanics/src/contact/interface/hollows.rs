@@ -7,7 +7,7 @@ use crate::math::Vec3;
 
 /// How the depth of the primary is divided among its nodes.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Hollows {
+pub struct NodalWear {
     /// Area of each node `[m²]`, zero of those between corners; empty where nothing wears.
     pub(in crate::contact) area: Vec<f64>,
     /// The two corners whose mean a node has: twice itself of a corner.
@@ -16,10 +16,10 @@ pub struct Hollows {
     pub(in crate::contact) ground: Option<Ground>,
 }
 
-impl Hollows {
+impl NodalWear {
     /// Of facets with their nodes at `x`; `extent` is that out of the plane, thickness or `2πr`.
     pub fn new(facets: &[Facet], x: &[Vec3], extent: impl Fn(Vec3) -> f64 + Copy) -> Self {
-        let mut out = Hollows {
+        let mut out = NodalWear {
             area: vec![0.0; x.len()],
             ends: (0..x.len()).map(|n| [n, n]).collect(),
             ground: None,
@@ -47,9 +47,9 @@ impl Hollows {
 
     /// Of a primary whose depth is kept on a ground.
     pub fn on(ground: Ground) -> Self {
-        Hollows {
+        NodalWear {
             ground: Some(ground),
-            ..Hollows::default()
+            ..NodalWear::default()
         }
     }
 

@@ -13,17 +13,17 @@ use crate::math::{Vec3, add, add_scaled, cross, dot, norm, sub};
 
 /// Where two surfaces meet along a motion.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Meeting {
+pub struct TimeOfImpact {
     /// Part of the motion that can be made before surfaces that are apart may touch; infinite where they never do.
     pub way: f64,
     /// Points of the mesh that touch and come nearer: of the secondary, and of the primary where that is a body.
     pub touching: Vec<(usize, Option<usize>)>,
 }
 
-impl Meeting {
+impl TimeOfImpact {
     /// Nothing is met, however far.
     fn none() -> Self {
-        Meeting {
+        TimeOfImpact {
             way: f64::INFINITY,
             touching: Vec::new(),
         }
@@ -44,8 +44,8 @@ const STRIDE: f64 = 0.5;
 
 /// How much of the motion `w` (by dof, added to displacements `u`) can be made at time `t` until points of the secondary touch the
 /// primary.
-pub fn meeting(interface: &mut InterfaceForce, u: &[f64], w: &[f64], t: f64) -> Meeting {
-    let none = Meeting::none();
+pub fn meeting(interface: &mut InterfaceForce, u: &[f64], w: &[f64], t: f64) -> TimeOfImpact {
+    let none = TimeOfImpact::none();
     let speeds: Vec<Vec3> = (interface.nodes.iter())
         .map(|&node| interface.dofs.vector(w, node))
         .collect();
@@ -60,7 +60,7 @@ pub fn meeting(interface: &mut InterfaceForce, u: &[f64], w: &[f64], t: f64) -> 
         Primary::Rigid(..) => meeting_obstacle(contact, &x, &speeds, largest, t),
         Primary::Facets(_) => match meeting_of_boxes(contact, &x, &speeds, largest, t) {
             Some(0.0) => meeting_facets(contact, search, &x, &speeds, largest, t),
-            Some(way) => Meeting { way, ..none },
+            Some(way) => TimeOfImpact { way, ..none },
             None => none,
         },
     }
@@ -72,8 +72,8 @@ fn meeting_obstacle(
     speeds: &[Vec3],
     largest: f64,
     t: f64,
-) -> Meeting {
-    let mut meeting = Meeting::none();
+) -> TimeOfImpact {
+    let mut meeting = TimeOfImpact::none();
     let Primary::Rigid(shape, motion) = &interface.primary else {
         return meeting;
     };
@@ -96,8 +96,8 @@ fn meeting_obstacle(
             continue;
         }
         // Seen from inside, the surface is nearer than its tangent plane: no further than it is away.
-        let hollow = (0..3).map(|i| foot.curvature[i][i]).sum::<f64>() < 0.0;
-        let speed = if hollow { norm(v) } else { closing };
+        let concave = (0..3).map(|i| foot.curvature[i][i]).sum::<f64>() < 0.0;
+        let speed = if concave { norm(v) } else { closing };
         meeting.way = meeting.way.min(gap / speed);
     }
     meeting
@@ -168,8 +168,8 @@ fn meeting_facets(
     speeds: &[Vec3],
     largest: f64,
     t: f64,
-) -> Meeting {
-    let mut meeting = Meeting::none();
+) -> TimeOfImpact {
+    let mut meeting = TimeOfImpact::none();
     update_candidates(interface.definition, search, x);
     let feet = closest_of_all(interface.definition, x, search);
     let facets = interface.facets();

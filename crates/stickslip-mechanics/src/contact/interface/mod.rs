@@ -69,13 +69,13 @@ pub use change::{Change, changed};
 pub use commit::commit;
 pub use conditions::{CandidatePoints, Conditions, Steady};
 pub use definition::{InterfaceDefinition, InterfaceMesh, Primary};
-pub use ground::{Above, Ground};
+pub use ground::{Ground, TrackSampling};
 pub use history::History;
-pub use hollows::Hollows;
+pub use hollows::NodalWear;
 pub use impulse::{Pressed, pressed_points};
 pub use initial::{CLOSE, GLUE, Initial, Start, Within};
 pub use linearise::{LinearPoint, linearise};
-pub use meeting::{Meeting, meeting};
+pub use meeting::{TimeOfImpact, meeting};
 pub use memory::{Memory, memory, remember};
 pub use onset::{
     Tried, add_initial_forces, adopt_light_tractions, adopt_tractions, evaluate_laws,

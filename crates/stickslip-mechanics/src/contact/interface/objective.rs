@@ -9,7 +9,7 @@ use super::definition::{InterfaceDefinition, InterfaceMesh, Primary};
 use super::history::{History, PointHistory};
 use super::parts::Interface;
 use super::view::ContactView;
-use super::{Hollows, Initial};
+use super::{Initial, NodalWear};
 use crate::contact::enforcement::{EnforcementModel, Penalty};
 use crate::contact::kinematics::{KinematicsModel, Pop1995, SmallSliding};
 use crate::contact::law::friction::{Coulomb, FrictionModel};
@@ -196,7 +196,7 @@ fn drum(
         nodes,
     });
     let mortar = mortar.then(|| Mortar::new(faces.collect(), points.len()));
-    let hollows = Hollows::new(&facets, &reference, |_| 1.0);
+    let hollows = NodalWear::new(&facets, &reference, |_| 1.0);
     let interface = Interface::new(InterfaceDefinition {
         name: "shoe".into(),
         mesh: Arc::new(InterfaceMesh {

@@ -18,11 +18,11 @@ use crate::math::{Vec3, add, add_scaled, dot, norm, sub};
 pub(super) const MOST_LEFT: usize = 2;
 
 /// A point that no facet carries.
-struct Off {
+struct NoProjection {
     /// From the surface `[m]`.
     distance: f64,
     /// It stays off the outer edge, but lies beneath the surface.
-    stranded: bool,
+    off_edge: bool,
 }
 
 /// The place on a facet that moves with it.
@@ -47,7 +47,7 @@ pub(super) fn evaluate_facet(
         Ok(found) => found,
         Err(off) => {
             return Evaluation {
-                stranded: off.stranded,
+                off_edge: off.off_edge,
                 ..Evaluation::open(off.distance)
             };
         }
@@ -151,7 +151,7 @@ fn facet_of(
     facets: &[Facet],
     scene: &Scene,
     anchor: &mut Option<Anchor>,
-) -> Result<(usize, FacetPoint), Off> {
+) -> Result<(usize, FacetPoint), NoProjection> {
     let interface = scene.interface;
     let geometry = scene.geometry;
     let found = if interface.kinematics.as_dyn().frozen() {
@@ -179,9 +179,9 @@ fn facet_of(
     let earlier = interface.alike.get(i).map_or(&[][..], Vec::as_slice);
     let carries = |&j: &usize| facet_of(j, facets, scene, &mut None).is_ok();
     if found.is_ok() && earlier.iter().any(carries) {
-        return Err(Off {
+        return Err(NoProjection {
             distance: f64::INFINITY,
-            stranded: false,
+            off_edge: false,
         });
     }
     match found {
@@ -189,14 +189,14 @@ fn facet_of(
         // off until the rest has settled, and if it leaves twice again until the next increment.
         Ok((_, p)) if interface.attempt.flips[i].left >= MOST_LEFT => {
             let away = sub(interface.points[i].position(&geometry.x), p.x);
-            Err(Off {
+            Err(NoProjection {
                 distance: norm(away),
-                stranded: dot(away, p.normal) < 0.0,
+                off_edge: dot(away, p.normal) < 0.0,
             })
         }
-        found => found.map_err(|distance| Off {
+        found => found.map_err(|distance| NoProjection {
             distance,
-            stranded: false,
+            off_edge: false,
         }),
     }
 }

@@ -6,7 +6,7 @@ use super::initial::TOUCHING;
 use super::input::InterfaceInput;
 use super::scene::{LawQuery, Met, Scene};
 use super::stiffness::{own_stiffness, spring, tangential_stiffness};
-use super::worn::{hollow, length, softness, wearing};
+use super::worn::{length, wear_compliance, wear_gap, wearing};
 use crate::contact::enforcement::Multipliers;
 use crate::contact::kinematics::{Moving, Stencil, carried_over, rate_slip};
 use crate::contact::law::friction::FrictionPoint;
@@ -26,8 +26,8 @@ pub(super) fn respond(met: Met, scene: &Scene, batch: &mut Batch) -> Evaluation 
     if let Some(glued) = interface.state.start.glued.get(i) {
         batch.stencil.gap -= glued;
     }
-    let hollow = hollow(i, scene, &batch.sides[met.sides..]);
-    batch.stencil.gap += hollow - interface.offset_at_start(i, scene.t);
+    let wear_gap = wear_gap(i, scene, &batch.sides[met.sides..]);
+    batch.stencil.gap += wear_gap - interface.offset_at_start(i, scene.t);
     let slots = claim(interface, met, batch);
     let stencil = &batch.stencil;
     let belt = stencil.frame.map(|e| dot(e, scene.belt));
@@ -55,7 +55,7 @@ pub(super) fn respond(met: Met, scene: &Scene, batch: &mut Batch) -> Evaluation 
             _ if scene.wants.pressed => Worn::default(),
             _ => {
                 let path = length(stencil.frame_before, slid);
-                softness(interface, i, path, scene.dt, before.pressure)
+                wear_compliance(interface, i, path, scene.dt, before.pressure)
             }
         },
         closing: closing(interface, i, stencil.gap, scene.dt),
@@ -95,7 +95,7 @@ pub(super) fn respond(met: Met, scene: &Scene, batch: &mut Batch) -> Evaluation 
             .fold(0.0, |m: f64, d| m.max(-d * at.dt)),
         response,
         gap: stencil.gap + worn,
-        hollow: hollow + worn,
+        wear_gap: wear_gap + worn,
         frames: Frames {
             normal: stencil.normal,
             now: stencil.frame,

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::Conditions;
 use super::Initial;
-use super::attempt::Flips;
+use super::attempt::StatusHistory;
 use super::definition::{InterfaceDefinition, InterfaceMesh, Primary};
 use super::history::History;
 use super::parts::Interface;
@@ -134,7 +134,7 @@ fn moved(interface: &Interface, t: f64, size: f64) -> State {
 /// A course of statuses shows what a point did, not how long it rested.
 #[test]
 fn a_course_shows_changes_only() {
-    let mut flips = Flips::default();
+    let mut flips = StatusHistory::default();
     let course = [
         Status::Open,
         Status::Stick,
@@ -154,7 +154,7 @@ fn a_course_shows_changes_only() {
 #[test]
 fn a_point_that_comes_back_goes_to_and_fro() {
     let visits = |facets: &[usize]| {
-        let mut flips = Flips::default();
+        let mut flips = StatusHistory::default();
         for &f in facets {
             flips.meets(Some(f));
             flips.meets(None);

@@ -41,7 +41,7 @@ pub(super) fn path(response: &Response, frictional: bool, frame: [Vec3; 2], move
 }
 
 /// Depth that is open at a point before the increment, which lies over the nodes of `sides` `[m]`.
-pub(super) fn hollow(i: usize, scene: &Scene, sides: &[(usize, f64)]) -> f64 {
+pub(super) fn wear_gap(i: usize, scene: &Scene, sides: &[(usize, f64)]) -> f64 {
     let interface = scene.interface;
     if !interface.laws.wears_away() {
         return 0.0;
@@ -56,7 +56,7 @@ pub(super) fn hollow(i: usize, scene: &Scene, sides: &[(usize, f64)]) -> f64 {
 }
 
 /// By how much a point that slides a `path` over a time wears both sides away, near a pressure.
-pub(super) fn softness(
+pub(super) fn wear_compliance(
     interface: InterfaceInput,
     i: usize,
     path: f64,
@@ -113,7 +113,7 @@ pub(super) fn wearing(
     for _ in 0..EVALUATIONS {
         let path = sliding_distance(interface.definition, &response, stencil.frame_before, moved);
         let pressure = response.traction[0].max(0.0);
-        let worn = softness(interface, i, path, at.dt, pressure);
+        let worn = wear_compliance(interface, i, path, at.dt, pressure);
         let off = worn.depth(pressure) - at.worn.depth(pressure);
         let turned = worn.slope - at.worn.slope;
         if off.abs() <= SETTLED * worn.slope * pressure && turned.abs() <= SETTLED * worn.slope {

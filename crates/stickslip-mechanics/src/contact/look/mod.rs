@@ -46,7 +46,7 @@ pub use resolution::{Resolution, resolution};
 pub use resultant::{
     Resultant, centre_and_normal, closed, committed_tally, resultant, sliding_area,
 };
-pub use scar::{Scar, explicit_limit, scar};
+pub use scar::{WearProfile, explicit_limit, scar};
 pub use sheet::{Sheet, sheet};
 pub use snaps::snaps;
 pub use spacing::coarser;

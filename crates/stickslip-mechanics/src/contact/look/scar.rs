@@ -14,7 +14,7 @@ const EDGE: f64 = 0.9;
 
 /// The deepest and the steepest of what is worn off, each beside what it has to be small against.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Scar {
+pub struct WearProfile {
     /// Largest slope of the depth along the surface `[-]`.
     pub slope: f64,
     /// Largest depth times the curvature of the surface it was worn off, as it was meshed `[-]`.
@@ -22,7 +22,7 @@ pub struct Scar {
 }
 
 /// How far wear goes beyond first order; `None` where nothing is worn off that contact feels.
-pub fn scar(contact: ContactView) -> Option<Scar> {
+pub fn scar(contact: ContactView) -> Option<WearProfile> {
     if !contact.laws.wears_away() {
         return None;
     }
@@ -43,14 +43,14 @@ pub fn scar(contact: ContactView) -> Option<Scar> {
     let sides = [own, theirs].map(|facets| scar_of(contact, &facets, &depths));
     let [a, b] = sides;
     let [slope, curved] = ground_scar(contact);
-    Some(Scar {
+    Some(WearProfile {
         slope: a.slope.max(b.slope).max(slope),
         curved: a.curved.max(b.curved).max(curved),
     })
 }
 
-fn scar_of(contact: ContactView, facets: &[&Facet], depths: &[f64]) -> Scar {
-    let mut scar = Scar::default();
+fn scar_of(contact: ContactView, facets: &[&Facet], depths: &[f64]) -> WearProfile {
+    let mut scar = WearProfile::default();
     // Normal and centre of the faces around each node.
     let mut around: HashMap<usize, Vec<(Vec3, Vec3)>> = HashMap::new();
     for facet in facets {

@@ -9,7 +9,7 @@ use super::identity::{Identity, Part};
 use super::library::{Library, Reserved, Source};
 use super::substructure::{ArtificialSprings, Seconds, Substructure, SweptPart};
 use crate::lease::Lease;
-use crate::linear::{Engine, FactorEffort, LinearError, Matrix, Ordered, Workspace};
+use crate::linear::{Analysed, Engine, FactorEffort, LinearError, Matrix, Workspace};
 use crate::math::vector::dot;
 
 /// What is to be condensed: known before any arithmetic.
@@ -36,7 +36,7 @@ struct Planned {
 #[derive(Debug)]
 enum Made {
     Before(Arc<Substructure>, Source),
-    Not(Arc<dyn Ordered>),
+    Not(Arc<dyn Analysed>),
 }
 
 impl Planned {
@@ -45,7 +45,7 @@ impl Planned {
         matches!(self.what, Made::Before(..))
     }
 
-    fn ordered(&self) -> &dyn Ordered {
+    fn ordered(&self) -> &dyn Analysed {
         match &self.what {
             Made::Before(part, _) => part.interior.ordered(),
             Made::Not(ordered) => &**ordered,
@@ -138,7 +138,7 @@ impl Plan {
             ..Effort::default()
         };
         let started = Instant::now();
-        let ordered: Result<Vec<Option<Arc<dyn Ordered>>>, LinearError> = found
+        let ordered: Result<Vec<Option<Arc<dyn Analysed>>>, LinearError> = found
             .par_iter()
             .map(
                 |(part, (_, analysis), known, _, before)| match (known, before) {
@@ -249,7 +249,7 @@ impl Plan {
         let makers: Vec<Maker> = parts.iter().map(reserve).collect();
         let new = parts.iter().filter(|part| !part.is_known());
         let workspace = Workspace::of(new.map(|part| part.ordered().longest()));
-        let make = |part: &Planned, ordered: &Arc<dyn Ordered>, lease: Option<Lease>| {
+        let make = |part: &Planned, ordered: &Arc<dyn Analysed>, lease: Option<Lease>| {
             let of_matrix = Part {
                 matrix,
                 points: part.points,

@@ -7,7 +7,7 @@ use super::identity::{Identity, Part};
 use super::substructure::Substructure;
 use crate::error::Error;
 use crate::lease::{self, Asked, Lease, Waiting};
-use crate::linear::{BlockCsr, Engine, LinearError, Ordered};
+use crate::linear::{Analysed, BlockCsr, Engine, LinearError};
 use crate::machine::total_memory;
 
 /// Substructures and analyses made before, for all runs of a process, and with a directory for those of others too.
@@ -23,7 +23,7 @@ pub struct Library {
 #[derive(Debug, Default)]
 struct Shelves {
     substructures: Shelf<Substructure>,
-    analyses: Shelf<dyn Ordered>,
+    analyses: Shelf<dyn Analysed>,
     stiffnesses: Shelf<BlockCsr>,
     engines: Vec<(EngineModel, Arc<dyn Engine>)>,
 }
@@ -207,13 +207,13 @@ impl Library {
     }
 
     /// The analysis of a part, if it was made before.
-    pub(super) fn analysis(&self, identity: Identity) -> Option<Arc<dyn Ordered>> {
+    pub(super) fn analysis(&self, identity: Identity) -> Option<Arc<dyn Analysed>> {
         let known = self.shelves().analyses.find(identity);
         known.filter(|known| known.is_alive())
     }
 
     /// Keeps an analysis.
-    pub(super) fn keep_analysis(&self, identity: Identity, ordered: &Arc<dyn Ordered>) {
+    pub(super) fn keep_analysis(&self, identity: Identity, ordered: &Arc<dyn Analysed>) {
         let entry = Entry {
             identity,
             made: Arc::clone(ordered),

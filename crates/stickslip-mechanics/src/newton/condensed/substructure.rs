@@ -4,7 +4,9 @@ use std::time::Instant;
 use faer::Mat;
 
 use super::identity::Identity;
-use crate::linear::{Compliance, Digest, Interior, LinearError, Matrix, Ordered, Schur, Workspace};
+use crate::linear::{
+    Analysed, Compliance, Digest, Interior, LinearError, Matrix, Schur, Workspace,
+};
 use crate::math::Vec3;
 use crate::math::vector::{dot, norm};
 
@@ -95,7 +97,7 @@ impl Substructure {
     /// Those of the factorisation: the interior is singular if the kept points do not hold it.
     pub fn new(
         identity: Identity,
-        ordered: &Arc<dyn Ordered>,
+        ordered: &Arc<dyn Analysed>,
         matrix: &dyn Matrix,
         springs: ArtificialSprings,
         workspace: &Workspace,

@@ -2,7 +2,7 @@
 
 use crate::friction::PointLaw;
 use crate::math::norm;
-use crate::system::{Assembler, ContactBlock, PointAlone, Tangent};
+use crate::system::{Assembler, ContactBlock, StickTrial, Tangent};
 
 /// Force, and point of that force.
 pub(super) type At = (usize, usize);
@@ -13,7 +13,7 @@ pub(super) type Found = (At, [f64; 3]);
 /// A point of one of the forces.
 pub(super) struct Place {
     pub at: At,
-    pub alone: PointAlone,
+    pub alone: StickTrial,
     /// Gradients by the dofs of the bulk.
     pub block: ContactBlock,
 }
@@ -153,7 +153,7 @@ mod tests {
 
     fn place(forces: [f64; 3]) -> Place {
         let rows = vec![1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
-        let alone = PointAlone {
+        let alone = StickTrial {
             dofs: vec![0, 1, 2],
             rows: rows.clone(),
             area: 1.0,

@@ -1,7 +1,7 @@
 //! Whether contact can balance what acts on a body that nothing else holds.
 
 use super::cause::DoctorCause;
-use super::finding::{Finding, Guilty, Severity};
+use super::finding::{Finding, Severity, Suspect};
 use super::friction::friction_coefficient;
 use super::places;
 use super::surfaces::Opposite;
@@ -106,7 +106,7 @@ fn beyond(view: &View, t: f64, slight: f64) -> Option<Finding> {
                     &body.name,
                     "held by contact alone".into(),
                 ))
-                .blame(Guilty::interface(&push.interface, ""));
+                .blame(Suspect::interface(&push.interface, ""));
             return Some(match cause {
                 DoctorCause::FreeRigidMode => {
                     finding.advise("support the body on its other side, or hold it by springs")

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::cause::DoctorCause;
-use super::finding::{Finding, Severity, What};
+use super::finding::{Finding, LocationKind, Severity};
 use crate::error::Error;
 use crate::io::vtu;
 use crate::mesh::Mesh;
@@ -37,7 +37,7 @@ pub(crate) fn write(path: &Path, findings: &[Finding]) -> Result<(), Error> {
                 continue;
             };
             mesh.points.push(x);
-            let node = guilty.id.filter(|_| guilty.what == What::Node);
+            let node = guilty.id.filter(|_| guilty.what == LocationKind::Node);
             mesh.point_ids.push(node.unwrap_or(0));
             rows.push([
                 DoctorCause::code(finding.cause) as f64,

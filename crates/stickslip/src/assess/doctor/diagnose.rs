@@ -2,7 +2,7 @@
 
 use super::cause::DoctorCause;
 use super::check;
-use super::finding::{Finding, Guilty, Severity, What};
+use super::finding::{Finding, LocationKind, Severity, Suspect};
 use super::friction::friction_coefficient;
 use super::motions::{FloatingBody, Row, floating, rows};
 use super::places;
@@ -120,7 +120,7 @@ fn root(view: &View, cause: &Cause) -> Option<Finding> {
                         i.name
                     ),
                 )
-                .blame(Guilty::interface(&i.name, "laws from functions"))
+                .blame(Suspect::interface(&i.name, "laws from functions"))
                 .advise("try the function at the gaps, pressures and speeds of the last increment")
             });
             return check::roots(view).into_iter().next().or(faulty);
@@ -140,7 +140,7 @@ pub(crate) fn stopped(view: &View, error: &RunError) -> Finding {
     }
     let mut finding = Finding::new(DoctorCause::Stopped, Severity::Error, error.message.clone());
     for culprit in &error.culprits {
-        finding = finding.blame(Guilty::key("", culprit.clone()));
+        finding = finding.blame(Suspect::key("", culprit.clone()));
     }
     finding.advice.extend(error.help.clone());
     finding.step = Some(view.step_name().to_string());
@@ -149,9 +149,9 @@ pub(crate) fn stopped(view: &View, error: &RunError) -> Finding {
 }
 
 /// The evidence as a place.
-fn point(e: &Evidence, remark: String) -> Guilty {
-    Guilty {
-        what: What::Node,
+fn point(e: &Evidence, remark: String) -> Suspect {
+    Suspect {
+        what: LocationKind::Node,
         name: e.interface.clone(),
         id: e.node,
         interface: Some(e.interface.clone()),
@@ -263,17 +263,17 @@ pub(crate) fn singular_help(model: &Model, dof: Option<usize>) -> String {
 }
 
 /// A point of the mesh.
-fn node(view: &View, point: usize, remark: String) -> Guilty {
+fn node(view: &View, point: usize, remark: String) -> Suspect {
     let model = view.model;
     let body = model.bodies.iter().find(|b| b.points.contains(&point));
     let name = body.map_or(String::new(), |b| b.name.clone());
-    Guilty {
-        what: What::Node,
+    Suspect {
+        what: LocationKind::Node,
         id: Some(model.mesh.point_ids[point]),
         body: Some(name.clone()),
         name,
         remark,
-        ..Guilty::default()
+        ..Suspect::default()
     }
     .at(model.mesh.points[point])
 }
@@ -341,11 +341,13 @@ fn with_drivers(finding: Finding, view: &View, trial: &Trial) -> Finding {
         DoctorCause::SlidesAway | DoctorCause::FreeRigidMode
     );
     let mut guilty = finding.guilty.iter();
-    if !moves || guilty.any(|g| g.what == What::Key) {
+    if !moves || guilty.any(|g| g.what == LocationKind::Key) {
         return finding;
     }
     let mut guilty = finding.guilty.iter();
-    let named = guilty.find(|g| g.what == What::Body).map(|g| &g.name);
+    let named = guilty
+        .find(|g| g.what == LocationKind::Body)
+        .map(|g| &g.name);
     let mut bodies = view.model.bodies.iter();
     match named.and_then(|name| bodies.position(|b| b.name == *name)) {
         Some(body) => driven(finding, view, body, trial),
@@ -356,14 +358,14 @@ fn with_drivers(finding: Finding, view: &View, trial: &Trial) -> Finding {
 /// With the loads, supports and obstacles that drive a body, and the supports that held it in the step before.
 fn driven(finding: Finding, view: &View, body: usize, trial: &Trial) -> Finding {
     let drivers = view.drivers(body, trial.to).into_iter();
-    let finding = drivers.fold(finding, |f, d| f.blame(Guilty::key(d.key, d.what)));
+    let finding = drivers.fold(finding, |f, d| f.blame(Suspect::key(d.key, d.what)));
     let free: Vec<String> = (finding.guilty.iter())
-        .filter(|g| g.what == What::Body)
+        .filter(|g| g.what == LocationKind::Body)
         .map(|g| g.name.clone())
         .collect();
     let gone = check::let_go(view, &free).into_iter();
     gone.fold(finding, |f, gone| {
-        f.blame(Guilty::key(gone.key, gone.what))
+        f.blame(Suspect::key(gone.key, gone.what))
             .advise(gone.advice)
     })
 }

@@ -36,7 +36,7 @@ impl fmt::Display for Severity {
 /// What kind of thing is guilty.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize, Deserialize, Keep)]
 #[serde(rename_all = "kebab-case")]
-pub enum What {
+pub enum LocationKind {
     /// A node of a mesh, or a contact point that hangs on several.
     #[default]
     Node,
@@ -52,15 +52,15 @@ pub enum What {
     Key,
 }
 
-impl fmt::Display for What {
+impl fmt::Display for LocationKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            What::Node => "node",
-            What::Facet => "facet",
-            What::Cell => "cell",
-            What::Body => "body",
-            What::Interface => "interface",
-            What::Key => "key",
+            LocationKind::Node => "node",
+            LocationKind::Facet => "facet",
+            LocationKind::Cell => "cell",
+            LocationKind::Body => "body",
+            LocationKind::Interface => "interface",
+            LocationKind::Key => "key",
         })
     }
 }
@@ -68,9 +68,9 @@ impl fmt::Display for What {
 /// A place to look at.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
-pub struct Guilty {
+pub struct Suspect {
     /// What it is.
-    pub what: What,
+    pub what: LocationKind,
     /// Name of the body, interface or key; of a node, facet or cell what it belongs to.
     pub name: String,
     /// User's number of a node or cell.
@@ -90,36 +90,36 @@ pub struct Guilty {
     pub remark: String,
 }
 
-impl Guilty {
+impl Suspect {
     /// A body.
     pub fn body(name: &str, remark: impl Into<String>) -> Self {
-        Guilty {
-            what: What::Body,
+        Suspect {
+            what: LocationKind::Body,
             name: name.to_string(),
             body: Some(name.to_string()),
             remark: remark.into(),
-            ..Guilty::default()
+            ..Suspect::default()
         }
     }
 
     /// An interface.
     pub fn interface(name: &str, remark: impl Into<String>) -> Self {
-        Guilty {
-            what: What::Interface,
+        Suspect {
+            what: LocationKind::Interface,
             name: name.to_string(),
             interface: Some(name.to_string()),
             remark: remark.into(),
-            ..Guilty::default()
+            ..Suspect::default()
         }
     }
 
     /// A key of the problem file.
     pub fn key(name: impl Into<String>, remark: impl Into<String>) -> Self {
-        Guilty {
-            what: What::Key,
+        Suspect {
+            what: LocationKind::Key,
             name: name.into(),
             remark: remark.into(),
-            ..Guilty::default()
+            ..Suspect::default()
         }
     }
 
@@ -130,7 +130,7 @@ impl Guilty {
     }
 }
 
-impl fmt::Display for Guilty {
+impl fmt::Display for Suspect {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}", self.what)?;
         match self.id {
@@ -161,7 +161,7 @@ pub struct Finding {
     /// In a sentence without a final stop.
     pub message: String,
     /// Where to look, most guilty first; ten at most.
-    pub guilty: Vec<Guilty>,
+    pub guilty: Vec<Suspect>,
     /// What has been tried.
     #[serde(default)]
     pub tried: Vec<String>,
@@ -209,7 +209,7 @@ impl Finding {
     }
 
     /// Adds a place, if there is room.
-    pub fn blame(mut self, guilty: Guilty) -> Self {
+    pub fn blame(mut self, guilty: Suspect) -> Self {
         if self.guilty.len() < MOST_GUILTY {
             self.guilty.push(guilty);
         }
@@ -246,7 +246,7 @@ mod tests {
     #[test]
     fn findings_survive_their_file() {
         let finding = Finding::new(DoctorCause::Chatter, Severity::Warning, "to and fro")
-            .blame(Guilty::interface("base", "").at([1.0, 2.0, 0.0]))
+            .blame(Suspect::interface("base", "").at([1.0, 2.0, 0.0]))
             .advise("smaller increments");
         let text = serde_json::to_string(&finding).expect("plain data");
         let back: Finding = serde_json::from_str(&text).expect("its own text");

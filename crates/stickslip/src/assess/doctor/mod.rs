@@ -24,7 +24,7 @@ mod unjoined;
 mod watch;
 
 pub use cause::DoctorCause;
-pub use finding::{Finding, Guilty, MOST_GUILTY, Severity, What};
+pub use finding::{Finding, LocationKind, MOST_GUILTY, Severity, Suspect};
 
 pub(crate) use check::{examine, let_go, longest_way};
 pub(crate) use culprits::write as write_culprits;
@@ -32,6 +32,6 @@ pub(crate) use diagnose::{MORE_MEMORY, diagnose, singular_help, stopped};
 pub(crate) use places::body as body_at;
 pub(crate) use record::{Counters, mistake, note};
 pub(crate) use surfaces::Opposite;
-pub(crate) use unjoined::Unjoined;
+pub(crate) use unjoined::MissingInterface;
 pub use watch::Peak;
 pub(crate) use watch::{Watch, watched};

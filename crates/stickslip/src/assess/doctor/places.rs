@@ -1,6 +1,6 @@
 //! Places of bodies.
 
-use super::finding::Guilty;
+use super::finding::Suspect;
 use crate::math::Vec3;
 use crate::model::definition::Model;
 
@@ -16,8 +16,8 @@ pub(super) fn bounds(points: &[Vec3]) -> (Vec3, Vec3) {
 }
 
 /// A body as a place: the centre of its box.
-pub(crate) fn body(model: &Model, name: &str, remark: String) -> Guilty {
-    let guilty = Guilty::body(name, remark);
+pub(crate) fn body(model: &Model, name: &str, remark: String) -> Suspect {
+    let guilty = Suspect::body(name, remark);
     match model.bodies.iter().find(|b| b.name == name) {
         Some(body) => {
             let (low, high) = bounds(&model.mesh.points[body.points.clone()]);

@@ -1,6 +1,6 @@
 //! Findings of a run, and what is known of an attempt before it.
 
-use super::finding::{Finding, Guilty};
+use super::finding::{Finding, Suspect};
 use crate::error::RunError;
 use crate::newton::Statistics;
 
@@ -35,7 +35,7 @@ pub(crate) fn mistake(finding: &Finding, t: f64) -> RunError {
     RunError {
         message: format!("{step}{}", finding.message),
         time: t,
-        culprits: finding.guilty.iter().map(Guilty::to_string).collect(),
+        culprits: finding.guilty.iter().map(Suspect::to_string).collect(),
         help: (!finding.advice.is_empty()).then(|| finding.advice.join("; ")),
     }
 }

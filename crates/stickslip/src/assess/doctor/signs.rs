@@ -1,7 +1,7 @@
 //! What guilty points show by themselves, and what supports ask of them.
 
 use super::cause::DoctorCause;
-use super::finding::{Finding, Guilty, Severity};
+use super::finding::{Finding, Severity, Suspect};
 use crate::assess::view::View;
 use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::math::{Vec3, add_scaled, dot, norm, sub};
@@ -80,7 +80,7 @@ pub(super) fn too_large_slip(slip: f64, interface: &str) -> Finding {
         Severity::Warning,
         format!("points of interface {interface} slide over {slip:.2} facets in one increment"),
     )
-    .blame(Guilty::interface(interface, format!("{slip:.2} facets")))
+    .blame(Suspect::interface(interface, format!("{slip:.2} facets")))
     .advise(format!(
         "increments that are {} times smaller, so that a point slides over half a facet at most",
         (2.0 * slip).ceil()

@@ -4,7 +4,7 @@ use crate::contact::look;
 use serde::Serialize;
 
 use super::cause::DoctorCause;
-use super::finding::{Finding, Guilty, Severity, What};
+use super::finding::{Finding, LocationKind, Severity, Suspect};
 use crate::assess::view::View;
 use crate::contact::interface::ContactView;
 use crate::contact::interface::InterfaceDefinition;
@@ -171,7 +171,7 @@ fn turned(interface: &InterfaceDefinition, watch: &Watch) -> Option<Finding> {
     };
     Some(
         finding
-            .blame(Guilty::interface(name, "kinematics.small-sliding"))
+            .blame(Suspect::interface(name, "kinematics.small-sliding"))
             .advise(format!("leave out `interface.{name}.kinematics.small-sliding`: the default follows the surfaces")),
     )
 }
@@ -202,7 +202,7 @@ fn deep(interface: ContactView) -> Option<Finding> {
     );
     Some(
         finding
-            .blame(Guilty::interface(name, "worn beyond first order"))
+            .blame(Suspect::interface(name, "worn beyond first order"))
             .advise(format!("end the run here and begin another one on the worn surfaces, with `worn` of `interface.{name}`")),
     )
 }
@@ -237,19 +237,19 @@ fn left(view: &View, interface: ContactView, watch: &Watch) -> Option<Finding> {
         time: Some(watch.carried_at),
         ..finding
     }
-    .blame(Guilty::interface(
+    .blame(Suspect::interface(
         name,
         "its secondary has left its primary",
     ));
     for &i in beyond {
         finding = finding.blame(
-            Guilty {
-                what: What::Node,
+            Suspect {
+                what: LocationKind::Node,
                 name: name.clone(),
                 id: (interface.points[i].node()).map(|one| interface.node_ids[one]),
                 interface: Some(name.clone()),
                 remark: "beyond the edge".into(),
-                ..Guilty::default()
+                ..Suspect::default()
             }
             .at(interface.place(&interface.points[i])),
         );
@@ -273,7 +273,7 @@ fn never_carried(interface: &InterfaceDefinition, moves: bool) -> Finding {
         severity,
         format!("interface {name} never carried anything in the whole run"),
     )
-    .blame(Guilty::interface(name, "no force at any time"))
+    .blame(Suspect::interface(name, "no force at any time"))
     .advise("check that supports and loads press the two bodies together, and the gap between them (`stickslip check`)")
     .advise("where the bodies do meet, choose the finer surface as secondary")
 }
@@ -297,7 +297,7 @@ fn coarse(interface: &InterfaceDefinition, watch: &Watch) -> Option<Finding> {
         time: Some(watch.time),
         ..finding
     }
-    .blame(Guilty::interface(name, format!("{points} in contact")));
+    .blame(Suspect::interface(name, format!("{points} in contact")));
     finding = finding.advise(
         "refine the secondary where it is touched: pressures and the extent of contact need several points across; what the force is off shows when the mesh is halved",
     );

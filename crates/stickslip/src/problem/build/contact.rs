@@ -12,7 +12,7 @@ use super::sets::Sets;
 use super::surfaces::{Numbering, Surfaces};
 use crate::contact::enforcement::Multipliers;
 use crate::contact::interface::{
-    Above, Ground, Hollows, Initial, InterfaceDefinition, InterfaceMesh, Primary, Start,
+    Ground, Initial, InterfaceDefinition, InterfaceMesh, NodalWear, Primary, Start, TrackSampling,
 };
 use crate::contact::law::wear::{Feedback, WearRate};
 use crate::contact::look::neighbours;
@@ -253,19 +253,24 @@ impl Make<'_> {
     }
 
     /// How what is worn off the primary is kept, where something wears: at its nodes; of an obstacle, and where its matter goes by, on a ground.
-    fn hollows(&self, opposite: &Primary, above: Above, key: &str) -> Result<Hollows, Error> {
+    fn hollows(
+        &self,
+        opposite: &Primary,
+        above: TrackSampling,
+        key: &str,
+    ) -> Result<NodalWear, Error> {
         let wear = self.table.wear.as_dyn();
         if !wear.active() {
-            return Ok(Hollows::default());
+            return Ok(NodalWear::default());
         }
         let extent = |at: Vec3| self.surfaces.space.extent(at);
         let facets = match opposite {
             Primary::Facets(facets) => facets,
             Primary::Rigid(..) if wear.fastest()[1] == WearRate::default() => {
-                return Ok(Hollows::default());
+                return Ok(NodalWear::default());
             }
             Primary::Rigid(shape, _) => {
-                return Ok(Hollows::on(Ground::of_obstacle(
+                return Ok(NodalWear::on(Ground::of_obstacle(
                     shape.as_dyn(),
                     above,
                     extent,
@@ -273,7 +278,7 @@ impl Make<'_> {
             }
         };
         if !goes_by(self.table) {
-            return Ok(Hollows::new(facets, above.x, extent));
+            return Ok(NodalWear::new(facets, above.x, extent));
         }
         let rows = belt(self.table);
         let speed = |row: &[f64; 4]| norm([row[1], row[2], row[3]]);
@@ -284,7 +289,7 @@ impl Make<'_> {
         let fault = Diagnostic::new(key, message)
             .help("make the primary an obstacle that turns by `motion.rotation`, or let the secondary alone wear");
         ground
-            .map(Hollows::on)
+            .map(NodalWear::on)
             .ok_or_else(|| problem_error(vec![fault]))
     }
 
@@ -331,7 +336,7 @@ impl Make<'_> {
             Some(_) => Vec::new(),
             None => skin(beneath, &points, own.as_deref()),
         };
-        let above = Above {
+        let above = TrackSampling {
             points: &points,
             skin: &skin,
             x: &reference,

@@ -14,7 +14,7 @@ use crate::error::{Diagnostic, Error};
 use crate::math::{Mat3, Vec3, add_scaled, distance, dot, norm, sub, symmetric_eigen};
 use crate::mesh::Mesh;
 use crate::model::{Body, Reference, Rigid, Step, Support};
-use crate::system::{BodyFrames, Dofs, Follower, Freedom, Link, Links, Motion};
+use crate::system::{BodyFrames, DependentNode, Dofs, Freedom, Link, Links, Motion};
 
 /// Part of what resists a reference point the most below which nothing does.
 const NOTHING: f64 = 1e-12;
@@ -383,7 +383,7 @@ pub(super) fn followers(
     references: &[Reference],
     said: Bearing,
     steps: &[Step],
-) -> Vec<Follower> {
+) -> Vec<DependentNode> {
     let (links, supports, springs, masses) = said;
     let dofs = links.dofs();
     let mut known: BTreeMap<usize, usize> = BTreeMap::new();
@@ -425,7 +425,7 @@ pub(super) fn followers(
                 return true;
             }
             let others = row.terms().filter(|(d, _)| *d != dof);
-            out.push(Follower {
+            out.push(DependentNode {
                 dof,
                 row: others.map(|(d, a)| (d, -a / factor)).collect(),
             });
@@ -436,8 +436,8 @@ pub(super) fn followers(
 }
 
 /// What acts on dofs that follow acts on the points that they follow.
-pub(super) fn spread(loads: &mut [Load], followers: &[Follower]) {
-    let rows: BTreeMap<usize, &Follower> = followers.iter().map(|f| (f.dof, f)).collect();
+pub(super) fn spread(loads: &mut [Load], followers: &[DependentNode]) {
+    let rows: BTreeMap<usize, &DependentNode> = followers.iter().map(|f| (f.dof, f)).collect();
     for load in loads {
         let mut all: BTreeMap<usize, f64> = BTreeMap::new();
         for &(dof, force) in &load.entries {

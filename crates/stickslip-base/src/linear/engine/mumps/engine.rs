@@ -4,8 +4,8 @@ use std::sync::atomic::Ordering;
 use super::body::Body;
 use super::job::Job;
 use super::options::MumpsOptions;
-use crate::linear::engine::bare::Bare;
-use crate::linear::engine::contract::{Cut, Engine, EngineReport, Ordered};
+use crate::linear::engine::bare::Undivided;
+use crate::linear::engine::contract::{Analysed, Cut, Engine, EngineReport};
 use crate::linear::engine::split::Split;
 use crate::linear::{LinearError, Matrix};
 
@@ -56,11 +56,11 @@ impl Engine for Mumps {
         self: Arc<Self>,
         matrix: &dyn Matrix,
         body: Cut,
-    ) -> Result<Arc<dyn Ordered>, LinearError> {
+    ) -> Result<Arc<dyn Analysed>, LinearError> {
         let split = Split::new(matrix, body)?;
         if split.interior.is_empty() {
             // There is nothing to eliminate, as in rigid bodies.
-            return Ok(Arc::new(Bare(split)));
+            return Ok(Arc::new(Undivided(split)));
         }
         Ok(Arc::new(Body::new(
             Arc::clone(&self.job),

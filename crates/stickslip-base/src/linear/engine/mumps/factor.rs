@@ -9,7 +9,7 @@ use super::options::MumpsOptions;
 use super::refusal::{not_finite, refusal};
 use super::root::Root;
 use super::words::WordReader;
-use crate::linear::engine::contract::{FactorEffort, Interior, Ordered};
+use crate::linear::engine::contract::{Analysed, FactorEffort, Interior};
 use crate::linear::{LinearError, Matrix, Numbers, Schur, Workspace};
 
 /// Largest error, relative to the whole, of displacements that are known beforehand: what is worse comes of a singular matrix.
@@ -31,7 +31,7 @@ pub(super) struct Factor {
     last: Mutex<Vec<f64>>,
 }
 
-impl Ordered for Body {
+impl Analysed for Body {
     fn interior(&self) -> &[u32] {
         &self.split.interior
     }
@@ -128,7 +128,7 @@ impl Factor {
         }
         let number = Arc::new(number);
         let schur = match body.spread {
-            true => Schur::Spread(Arc::new(Root {
+            true => Schur::DistributedOperator(Arc::new(Root {
                 number: Arc::clone(&number),
                 pieces,
                 trace: figure(4).unwrap_or(f64::NAN),
@@ -210,7 +210,7 @@ impl Body {
 }
 
 impl Interior for Factor {
-    fn ordered(&self) -> &dyn Ordered {
+    fn ordered(&self) -> &dyn Analysed {
         &*self.body
     }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::number::Number;
-use crate::linear::{LinearError, Spread};
+use crate::linear::{DistributedOperator, LinearError};
 
 /// The Schur complement of a body, or its inverse.
 #[derive(Debug)]
@@ -13,7 +13,7 @@ pub(super) struct Root {
     pub trace: f64,
 }
 
-impl Spread for Root {
+impl DistributedOperator for Root {
     fn trace(&self) -> f64 {
         self.trace
     }

@@ -89,7 +89,7 @@ fn close(a: &[f64], b: &[f64], tolerance: f64) {
 fn values(schur: &Schur) -> &[f64] {
     match schur {
         Schur::Here(values) => values,
-        Schur::Spread(_) => panic!("it is spread"),
+        Schur::DistributedOperator(_) => panic!("it is spread"),
     }
 }
 

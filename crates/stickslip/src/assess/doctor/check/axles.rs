@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity};
+use super::super::finding::{Finding, Severity, Suspect};
 use super::common::{diameter, times};
 use super::units::SIZES;
 use crate::math::{Vec3, distance};
@@ -58,7 +58,7 @@ fn far(scene: &Scene, reference: &Reference) -> Option<Finding> {
                 nearest / size
             ),
         )
-        .blame(Guilty::key(format!("reference.{name}.point"), format!("{nearest:.3e} away")).at(centre))
+        .blame(Suspect::key(format!("reference.{name}.point"), format!("{nearest:.3e} away")).at(centre))
         .advise("put the point where the axle is, in the unit of the meshes")
     })
 }
@@ -97,7 +97,7 @@ fn degrees(model: &Model) -> Vec<Finding> {
                     angle.abs() / TAU
                 ),
             )
-            .blame(Guilty::key(format!("support.{name}"), format!("{angle:.6} rad")))
+            .blame(Suspect::key(format!("support.{name}"), format!("{angle:.6} rad")))
             .advise(format!("if degrees are meant, write {:.9}", angle.to_radians())),
         );
     }

@@ -1,7 +1,7 @@
 //! Pretensions that hold nothing: that push their sides apart, that draw them together with next to nothing, or that a later step lets go.
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity};
+use super::super::finding::{Finding, Severity, Suspect};
 use super::super::places::body;
 use crate::assess::view::View;
 use crate::body::couplings::{Coupling, Course, Draw, Pretension, Tie};
@@ -73,7 +73,7 @@ impl Bolt<'_> {
     /// A finding about what a step does with it.
     fn finding(&self, step: usize, message: String) -> Finding {
         let finding = Finding::new(DoctorCause::LooseBolt, Severity::Warning, message)
-            .blame(Guilty::key(self.key(step), ""));
+            .blame(Suspect::key(self.key(step), ""));
         match self.body {
             Some(b) => finding.blame(body(self.model, &b.name, "cut by it".into())),
             None => finding,
@@ -158,7 +158,7 @@ impl Bolt<'_> {
                             self.name
                         ),
                     )
-                    .blame(Guilty::key(self.key(step), "0"))
+                    .blame(Suspect::key(self.key(step), "0"))
                     .advise(format!(
                         "if it is to stay tightened, write `pretension.{} = {{ hold = true }}` in step {}: the bolt keeps its length, and the force changes with what the joint carries",
                         self.name,

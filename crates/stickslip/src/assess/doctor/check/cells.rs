@@ -1,7 +1,7 @@
 //! Cells that are next to nothing: so flat that their stiffness drowns that of the others.
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity, What};
+use super::super::finding::{Finding, LocationKind, Severity, Suspect};
 use crate::math::{Vec3, add_scaled, determinant, distance, symmetric_eigen};
 use crate::model::definition::{Body, Model};
 use crate::shape::{ElementKind, MAX_NODES};
@@ -42,13 +42,13 @@ fn sliver(model: &Model, body: &Body) -> Option<Finding> {
     );
     for (flat, id, kind, x) in found {
         finding = finding.blame(
-            Guilty {
-                what: What::Cell,
+            Suspect {
+                what: LocationKind::Cell,
                 name: body.name.clone(),
                 id: Some(id),
                 body: Some(body.name.clone()),
                 remark: format!("{kind}, extents 1 to {flat:.1e}"),
-                ..Guilty::default()
+                ..Suspect::default()
             }
             .at(x),
         );

@@ -1,6 +1,6 @@
 //! What several rules look at.
 
-use super::super::finding::{Guilty, What};
+use super::super::finding::{LocationKind, Suspect};
 use super::super::places::bounds;
 use crate::body::couplings::Tie;
 use crate::contact::interface::InterfaceDefinition;
@@ -9,15 +9,15 @@ use crate::model::definition::Model;
 use crate::model::scene::Scene;
 
 /// A point of the secondary as a place.
-pub(super) fn secondary(interface: &InterfaceDefinition, i: usize, remark: String) -> Guilty {
+pub(super) fn secondary(interface: &InterfaceDefinition, i: usize, remark: String) -> Suspect {
     let point = &interface.points[i];
-    Guilty {
-        what: What::Node,
+    Suspect {
+        what: LocationKind::Node,
         name: interface.name.clone(),
         id: point.node().map(|one| interface.node_ids[one]),
         interface: Some(interface.name.clone()),
         remark,
-        ..Guilty::default()
+        ..Suspect::default()
     }
     .at(interface.place(point))
 }

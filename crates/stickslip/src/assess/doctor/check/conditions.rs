@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity, What};
+use super::super::finding::{Finding, LocationKind, Severity, Suspect};
 use super::common::{forced, travel};
 use super::measured::Measured;
 use crate::assess::view::View;
@@ -35,7 +35,7 @@ pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
                 Severity::Warning,
                 "nothing acts: no load, no prescribed displacement, no motion of an obstacle, no overlap",
             )
-            .blame(Guilty::key("step", "every step leaves the model as it is"))
+            .blame(Suspect::key("step", "every step leaves the model as it is"))
             .advise("check that values are not zero and that steps list the loads and supports that act"),
         );
     }
@@ -58,7 +58,7 @@ fn inert(model: &Model) -> Vec<Finding> {
         let message =
             format!("temperature {name} changes nothing: no material of its bodies expands");
         Finding::new(DoctorCause::NothingActs, Severity::Warning, message)
-            .blame(Guilty::key(format!("temperature.{name}"), ""))
+            .blame(Suspect::key(format!("temperature.{name}"), ""))
             .advise("give their materials an `expansion`, the coefficient of thermal expansion")
     };
     idle.map(|field| finding(&field.name)).collect()
@@ -116,19 +116,19 @@ fn contradiction(
         let body = model.bodies.iter().find(|b| b.points.contains(&point));
         let name = body.map_or(String::new(), |b| b.name.clone());
         finding = finding.blame(
-            Guilty {
-                what: What::Node,
+            Suspect {
+                what: LocationKind::Node,
                 id: Some(model.mesh.point_ids[point]),
                 body: Some(name.clone()),
                 name,
                 remark: format!("direction {direction}"),
-                ..Guilty::default()
+                ..Suspect::default()
             }
             .at(model.mesh.points[point]),
         );
     }
     finding
-        .blame(Guilty::key(format!("support.{first}"), ""))
-        .blame(Guilty::key(format!("support.{second}"), ""))
+        .blame(Suspect::key(format!("support.{first}"), ""))
+        .blame(Suspect::key(format!("support.{second}"), ""))
         .advise("leave the common points out of one of the two sets, or let the supports act in different steps")
 }

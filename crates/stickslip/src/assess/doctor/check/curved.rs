@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity};
+use super::super::finding::{Finding, Severity, Suspect};
 use super::super::surfaces::{Opposite, coordinates, spacing};
 use super::common::{median, roles, sides};
 use crate::contact::facet_point::evaluate;
@@ -179,7 +179,7 @@ fn say(model: &Model, interface: &InterfaceDefinition, side: usize, coarse: f64)
         ),
     );
     finding
-        .blame(Guilty::interface(
+        .blame(Suspect::interface(
             name,
             format!("cells {coarse:.2} of the radius"),
         ))

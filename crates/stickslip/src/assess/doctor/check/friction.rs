@@ -2,7 +2,7 @@
 
 use super::super::cause::DoctorCause;
 use super::super::coupling::local_limit;
-use super::super::finding::{Finding, Guilty, Severity};
+use super::super::finding::{Finding, Severity, Suspect};
 use super::super::friction::friction_coefficient;
 use super::common::{forced, median, secondary};
 use super::driven;
@@ -39,8 +39,8 @@ pub(super) fn check(
                     Severity::Warning,
                     format!("interface {name}: the coefficient of friction is {mu:.3}; dry surfaces rarely exceed 1"),
                 )
-                .blame(Guilty::interface(name, format!("friction {mu:.3}")))
-                .blame(Guilty::key(format!("interface.{name}.friction"), ""))
+                .blame(Suspect::interface(name, format!("friction {mu:.3}")))
+                .blame(Suspect::key(format!("interface.{name}.friction"), ""))
                 .advise("check the coefficient: above the coupling limit of the bodies there may be several solutions, or none"),
             );
         }
@@ -54,7 +54,7 @@ pub(super) fn check(
                          may be several solutions, or none"
                     ),
                 )
-                .blame(Guilty::interface(name, format!("friction {mu:.3}")))
+                .blame(Suspect::interface(name, format!("friction {mu:.3}")))
                 .blame(secondary(interface, i, format!("k_t / |k_tn| = {limit:.3}")))
                 .advise(format!("a coefficient of friction below {limit:.3}"))
                 .advise("small increments, a regularised slip rule, or a dynamic step"),
@@ -81,8 +81,8 @@ pub(super) fn check(
                     Severity::Warning,
                     format!("interface {name}: the slope of the normal law changes by a factor {ratio:.0} at row {row} of its table"),
                 )
-                .blame(Guilty::interface(name, "normal law with a kink"))
-                .blame(Guilty::key(
+                .blame(Suspect::interface(name, "normal law with a kink"))
+                .blame(Suspect::key(
                     format!("interface.{name}.normal.tabular.table.{row}"),
                     format!("penetration {:.3e}", law.table[row][0]),
                 ))
@@ -167,7 +167,7 @@ pub(super) fn pressureless(
                 interface.name
             ),
         )
-        .blame(Guilty::interface(&interface.name, "carries no pressure"))
+        .blame(Suspect::interface(&interface.name, "carries no pressure"))
         .advise("prescribe a displacement or a load along its normal, in the same step or one before")
     })
 }
@@ -224,7 +224,7 @@ fn too_early(interface: &InterfaceDefinition, early: &str, late: &str) -> Findin
             "interface {name} slides in step {early}, but is pressed together only in step {late}: until then friction has no pressure and resists nothing"
         ),
     )
-    .blame(Guilty::interface(name, format!("carries no pressure in step {early}")))
-    .blame(Guilty::key("step", format!("{early} before {late}")))
+    .blame(Suspect::interface(name, format!("carries no pressure in step {early}")))
+    .blame(Suspect::key("step", format!("{early} before {late}")))
     .advise("press first, then slide: change the order of the steps, or their lists of supports")
 }

@@ -1,7 +1,7 @@
 //! Gaps that cannot close, overlaps that are too deep.
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity};
+use super::super::finding::{Finding, Severity, Suspect};
 use super::common::{forced_by_loads, secondary, travel};
 use super::driven::flight;
 use super::measured::Measured;
@@ -81,7 +81,7 @@ pub(super) fn check(
                 ),
             )
             .blame(secondary(interface, first, format!("gap {smallest:.3e}")))
-            .blame(Guilty::interface(&interface.name, "stays open"))
+            .blame(Suspect::interface(&interface.name, "stays open"))
             .advise("move a body by the gap (`body.NAME.translate`), or check the units of its mesh"),
         );
     }
@@ -127,7 +127,7 @@ fn faceted(interface: &InterfaceDefinition, gaps: &[(usize, f64)]) -> Option<Fin
                 "interface {name}: straight facets stand off the curved surfaces by {off:.2e}, {part:.0} % of the overlap at the start ({typical:.2e}): the pressure of the fit is uncertain by more than that"
             ),
         )
-        .blame(Guilty::interface(name, format!("overlap {typical:.2e}, facets off by {off:.2e}")))
+        .blame(Suspect::interface(name, format!("overlap {typical:.2e}, facets off by {off:.2e}")))
         .advise("refine both surfaces, or use quadratic cells, until the facets are off by a twentieth of the overlap")
         .advise("divide both surfaces alike: then the facets are off by the same"),
     )
@@ -145,7 +145,10 @@ fn nothing_opposite(interface: &InterfaceDefinition, measured: &Measured) -> Fin
             interface.name
         ),
     )
-    .blame(Guilty::interface(&interface.name, "cannot close from here"));
+    .blame(Suspect::interface(
+        &interface.name,
+        "cannot close from here",
+    ));
     if let Some((i, distance)) = near {
         let remark = format!("the nearest facet is {distance:.3e} away, to the side");
         finding = finding.blame(secondary(interface, i, remark));

@@ -1,7 +1,7 @@
 //! Temperatures that strain bodies too much, that jump in motion, or that count from nobody knows what.
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity};
+use super::super::finding::{Finding, Severity, Suspect};
 use super::super::places::body;
 use super::common::times;
 use crate::model::definition::Model;
@@ -52,7 +52,7 @@ pub(super) fn strained(model: &Model) -> Vec<Finding> {
                     strain / rise.abs()
                 ),
             )
-            .blame(Guilty::key(format!("body.{name}.material"), "its `expansion`"))
+            .blame(Suspect::key(format!("body.{name}.material"), "its `expansion`"))
             .blame(body(model, name, format!("strain {strain:.3e}")))
             .advise("check the unit of `expansion`: that of steel is 12e-6 per degree, not 12")
             .advise("bodies are linear, with small strains, and results beyond are not to be trusted"),
@@ -82,7 +82,7 @@ fn from_zero(model: &Model) -> Option<Finding> {
                 field.name
             ),
         )
-        .blame(Guilty::key(format!("temperature.{}", field.name), ""))
+        .blame(Suspect::key(format!("temperature.{}", field.name), ""))
         .advise("where temperatures are not meant as rises, give the one of the start: `[initial.NAME]` with `set` and `temperature.uniform.value`, of all bodies")
     })
 }
@@ -125,8 +125,8 @@ fn jumps(model: &Model) -> Vec<Finding> {
                     step.name
                 ),
             )
-            .blame(Guilty::key(format!("temperature.{name}"), "at once"))
-            .blame(Guilty::key("step", format!("step {} is dynamic", step.name)))
+            .blame(Suspect::key(format!("temperature.{name}"), "at once"))
+            .blame(Suspect::key("step", format!("step {} is dynamic", step.name)))
             .advise("heat in a quasi-static step before, or spread the rise by an `amplitude`"),
         );
     }

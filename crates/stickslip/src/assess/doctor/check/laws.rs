@@ -1,7 +1,7 @@
 //! Normal laws that are far softer or stiffer than the bodies, and functions that are no laws.
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity};
+use super::super::finding::{Finding, Severity, Suspect};
 use super::common::{diameter, median};
 use crate::contact::interface::InterfaceDefinition;
 use crate::contact::law::friction::{FrictionLaw, FrictionPoint};
@@ -58,8 +58,8 @@ fn stiffness(interface: &InterfaceDefinition, largest: f64) -> Option<Finding> {
     let kind = interface.laws.normal.kind();
     let new = |message: String, remark: String| {
         Finding::new(DoctorCause::LawOutOfRange, Severity::Warning, message)
-            .blame(Guilty::interface(name, remark))
-            .blame(Guilty::key(format!("interface.{name}.normal.{kind}"), ""))
+            .blame(Suspect::interface(name, remark))
+            .blame(Suspect::key(format!("interface.{name}.normal.{kind}"), ""))
             .advise("check the parameters and units of the normal law: they have to suit the moduli, in Pa and m or in MPa and mm")
     };
     if depth > SOFT * largest && largest > 0.0 {
@@ -93,7 +93,7 @@ fn function(interface: &InterfaceDefinition) -> Option<Finding> {
     let name = &interface.name;
     let new = |message: String, remark: String| {
         Finding::new(DoctorCause::FaultyLaw, Severity::Warning, message)
-            .blame(Guilty::interface(name, remark))
+            .blame(Suspect::interface(name, remark))
             .advise("a normal law gives pressures from gaps, positive and falling as the gap opens; a limit of friction is positive or zero")
     };
     if let Some(law) = &own.friction {

@@ -1,7 +1,7 @@
 //! Bodies that are nearly incompressible and made of cells that lock.
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity};
+use super::super::finding::{Finding, Severity, Suspect};
 use super::super::places::body;
 use crate::body::{Formulation, Space};
 use crate::material::Stiffness;
@@ -101,7 +101,7 @@ fn finding(model: &Model, name: &str, kind: ElementKind, said: &str, poisson: f6
         ),
     )
     .blame(body(model, name, format!("{} with Poisson's ratio {poisson:.4}", kind.name())))
-    .blame(Guilty::key(format!("body.{name}.formulation"), ""))
+    .blame(Suspect::key(format!("body.{name}.formulation"), ""))
     .advise(advice)
 }
 

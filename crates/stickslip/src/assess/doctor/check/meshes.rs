@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity, What};
+use super::super::finding::{Finding, LocationKind, Severity, Suspect};
 use super::common::{median, roles, sides};
 use super::measured::Measured;
 use crate::assess::view::View;
@@ -46,13 +46,13 @@ pub(crate) fn disconnected(model: &Model) -> Vec<Finding> {
         ));
         for &point in small.iter().take(4) {
             finding = finding.blame(
-                Guilty {
-                    what: What::Node,
+                Suspect {
+                    what: LocationKind::Node,
                     name: body.name.clone(),
                     id: Some(model.mesh.point_ids[point]),
                     body: Some(body.name.clone()),
                     remark: "of the smallest piece".into(),
-                    ..Guilty::default()
+                    ..Suspect::default()
                 }
                 .at(model.mesh.points[point]),
             );
@@ -149,7 +149,7 @@ pub(super) fn check(
                     1.0 / size
                 ),
             )
-            .blame(Guilty::interface(&interface.name, format!("cells 1 : {:.1}", 1.0 / size)))
+            .blame(Suspect::interface(&interface.name, format!("cells 1 : {:.1}", 1.0 / size)))
             .blame(super::super::places::body(model, &theirs, "finer".into()))
             .advise(format!("{swap}: contact is checked at the secondary, which should be the finer side")),
         );
@@ -163,7 +163,7 @@ pub(super) fn check(
                     interface.name
                 ),
             )
-            .blame(Guilty::interface(&interface.name, format!("cells {size:.1} : 1")))
+            .blame(Suspect::interface(&interface.name, format!("cells {size:.1} : 1")))
             .blame(super::super::places::body(model, &theirs, "coarse".into()))
             .advise(format!("refine body {theirs} where it is touched: its facets bend pressures and its cells cannot follow them")),
         );
@@ -183,7 +183,7 @@ pub(super) fn check(
                     1.0 / ratio
                 ),
             )
-            .blame(Guilty::interface(&interface.name, ""))
+            .blame(Suspect::interface(&interface.name, ""))
             .blame(super::super::places::body(model, &theirs, "softer".into()))
             .advise(format!("{swap}: the stiffer side is the better primary")),
         );

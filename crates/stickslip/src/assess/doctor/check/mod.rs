@@ -35,7 +35,7 @@ pub(crate) use wear::longest_way;
 
 use super::finding::Finding;
 use super::surfaces::Opposite;
-use super::unjoined::Unjoined;
+use super::unjoined::MissingInterface;
 use crate::assess::view::View;
 use crate::contact::look;
 use crate::model::definition::Model;
@@ -43,7 +43,7 @@ use crate::model::scene::Scene;
 use measured::{Measured, measure};
 
 /// All findings about a model, given the gaps at its start by interface; worst first.
-pub(crate) fn examine(view: &View, unjoined: &Unjoined, gaps: &[Vec<f64>]) -> Vec<Finding> {
+pub(crate) fn examine(view: &View, unjoined: &MissingInterface, gaps: &[Vec<f64>]) -> Vec<Finding> {
     let t = view.frame.state.t;
     let interfaces = view.contact.interfaces.iter().zip(gaps);
     let measured: Vec<Measured> = interfaces

@@ -1,7 +1,7 @@
 //! Surfaces that do not face each other.
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity, What};
+use super::super::finding::{Finding, LocationKind, Severity, Suspect};
 use super::common::{roles, secondary, sides};
 use super::measured::Measured;
 use crate::assess::view::View;
@@ -45,7 +45,7 @@ pub(super) fn check(
                 interface.name
             ),
         )
-        .blame(Guilty::interface(
+        .blame(Suspect::interface(
             &interface.name,
             "its sides do not face each other",
         ))
@@ -55,14 +55,14 @@ pub(super) fn check(
         {
             let x = super::super::surfaces::coordinates(interface, facet);
             finding = finding.blame(
-                Guilty {
-                    what: What::Facet,
+                Suspect {
+                    what: LocationKind::Facet,
                     name: theirs.clone().unwrap_or_default(),
                     id: Some(facet.cell),
                     body: theirs,
                     interface: Some(interface.name.clone()),
                     remark: format!("a facet of the {other}"),
-                    ..Guilty::default()
+                    ..Suspect::default()
                 }
                 .at(x[0]),
             );
@@ -105,7 +105,7 @@ pub(super) fn through(
                 -gap
             ),
         )
-        .blame(Guilty::interface(name, "both sides on one body"))
+        .blame(Suspect::interface(name, "both sides on one body"))
         .blame(secondary(interface, i, format!("the other side is {:.3e} behind it, through the body", -gap)))
         .advise("name the surface of the other body that this one meets; a body that meets itself needs two surfaces that face each other"),
     )
@@ -135,7 +135,7 @@ fn inside_out(view: &View, interface: &InterfaceDefinition, ours: &str) -> Optio
                 100.0 * share
             ),
         )
-        .blame(Guilty::interface(&interface.name, "its obstacle is inside out"))
+        .blame(Suspect::interface(&interface.name, "its obstacle is inside out"))
         .blame(super::super::places::body(model, ours, "inside the obstacle".into()))
         .advise("turn the normal of the obstacle round (`inside` for a hole), or move the body to the other side")
     })

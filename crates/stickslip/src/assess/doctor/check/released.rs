@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity};
+use super::super::finding::{Finding, Severity, Suspect};
 use super::super::places::body;
 use crate::assess::view::View;
 use crate::model::definition::{Body, Model, Step};
@@ -215,7 +215,7 @@ fn finding(model: &Model, dropped: &Dropped, step: &Step, what: &str) -> Finding
             step.name
         ),
     )
-    .blame(Guilty::key(format!("{table}.{name}"), format!("not in `{table}s` of step {}", step.name)))
+    .blame(Suspect::key(format!("{table}.{name}"), format!("not in `{table}s` of step {}", step.name)))
     .blame(body(model, of, String::new()))
     .advise(format!("if that is not meant, add \"{name}\" to `{table}s` of step {}: a step with a list has nothing else", step.name))
 }

@@ -1,7 +1,7 @@
 //! Heights of rough surfaces that contact points cannot show, or that are as steep as no surface that first order holds for.
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity};
+use super::super::finding::{Finding, Severity, Suspect};
 use super::super::surfaces::spacing;
 use super::common::median;
 use crate::contact::interface::InterfaceDefinition;
@@ -35,8 +35,8 @@ fn aliased(model: &Model, interface: &InterfaceDefinition) -> Option<Finding> {
                 "interface {name}: the shortest wave of its roughness is {shortest:.3e} long and its points are {apart:.3e} apart: what they show is another surface, with longer waves or none"
             ),
         )
-        .blame(Guilty::key(format!("interface.{name}.roughness"), format!("waves of {shortest:.3e}")))
-        .blame(Guilty::interface(name, format!("points {apart:.3e} apart")))
+        .blame(Suspect::key(format!("interface.{name}.roughness"), format!("waves of {shortest:.3e}")))
+        .blame(Suspect::interface(name, format!("points {apart:.3e} apart")))
         .advise(format!(
             "refine the secondary until a wave has several points, {:.1e} apart and less, or leave short waves out",
             0.25 * shortest
@@ -76,8 +76,8 @@ fn steep(interface: &InterfaceDefinition) -> Option<Finding> {
                 "interface {name}: its roughness has a slope of {slope:.2} in the root mean square between points: to press it flat takes strains of about {strain:.2}, and heights change gaps to first order"
             ),
         )
-        .blame(Guilty::key(format!("interface.{name}.roughness"), format!("slope {slope:.2}")))
-        .blame(Guilty::interface(name, ""))
+        .blame(Suspect::key(format!("interface.{name}.roughness"), format!("slope {slope:.2}")))
+        .blame(Suspect::interface(name, ""))
         .advise("check the unit of the heights: roughness is micrometres, in a model in metres 1e-6")
         .advise("a shape that is as steep as that belongs into the mesh")
     })

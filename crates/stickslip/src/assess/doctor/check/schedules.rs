@@ -1,7 +1,7 @@
 //! What acts when: factors that jump, tables of which the analysis sees a part, and what never acts at all.
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity};
+use super::super::finding::{Finding, Severity, Suspect};
 use crate::model::definition::Model;
 use crate::model::scene::Scene;
 use crate::system::{Course, Schedule};
@@ -98,7 +98,7 @@ fn never(model: &Model, acting: &Acting) -> Option<Finding> {
     let new = |message| Finding::new(DoctorCause::NothingActs, Severity::Warning, message);
     if model.steps.iter().all(|s| !acting.schedule.active(s.end)) {
         let found = new(format!("{what} {name} acts in no step"))
-            .blame(Guilty::key(key, "listed in no step"));
+            .blame(Suspect::key(key, "listed in no step"));
         return Some(found.advise(format!("add it to `{what}s` of a step, or remove it")));
     }
     let mut times = super::common::times(model).into_iter();
@@ -108,7 +108,7 @@ fn never(model: &Model, acting: &Acting) -> Option<Finding> {
         new(format!(
             "{what} {name} is zero throughout: its amplitude is zero at all times up to the end of the analysis, {end}"
         ))
-        .blame(Guilty::key(format!("{key}.amplitude"), ""))
+        .blame(Suspect::key(format!("{key}.amplitude"), ""))
         .advise("check the times of the amplitude: they count from the start of the analysis")
     })
 }
@@ -150,8 +150,8 @@ fn unreached(model: &Model, acting: &Acting) -> Option<Finding> {
                 seen / all
             ),
         )
-        .blame(Guilty::key(format!("{what}.{name}.amplitude"), ""))
-        .blame(Guilty::key("step", format!("ends at {end}")))
+        .blame(Suspect::key(format!("{what}.{name}.amplitude"), ""))
+        .blame(Suspect::key("step", format!("ends at {end}")))
         .advise("make the steps as long as the amplitude, or scale its times"),
     )
 }
@@ -202,7 +202,7 @@ fn unread(model: &Model, acting: &Acting) -> Option<Finding> {
     };
     Some(
         Finding::new(DoctorCause::AmplitudeUnused, severity, message)
-            .blame(Guilty::key(
+            .blame(Suspect::key(
                 format!("{what}.{name}.amplitude"),
                 format!("rows from {first} on"),
             ))
@@ -256,7 +256,7 @@ fn jump(scene: &Scene, acting: &Acting) -> Option<Finding> {
                     w[0][1], w[1][1], w[1][0]
                 ),
             )
-            .blame(Guilty::key(format!("{what}.{name}.amplitude"), format!("time {:.4e}", w[1][0])))
+            .blame(Suspect::key(format!("{what}.{name}.amplitude"), format!("time {:.4e}", w[1][0])))
             .advise("spread the change over a part of the step, or make the step dynamic"),
         );
     }
@@ -285,7 +285,7 @@ fn ended(model: &Model, acting: &Acting) -> Option<Finding> {
                 last[0], last[1]
             ),
         )
-        .blame(Guilty::key(format!("{what}.{name}.amplitude"), ""))
+        .blame(Suspect::key(format!("{what}.{name}.amplitude"), ""))
         .advise("add a row where it should fall to zero"),
     )
 }

@@ -1,7 +1,7 @@
 //! Motions that are too fast for the bodies, or lead away from contact.
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity};
+use super::super::finding::{Finding, Severity, Suspect};
 use super::super::places::body;
 use super::common::forced_by_loads;
 use super::driven::{approach, thrown};
@@ -49,7 +49,7 @@ pub(super) fn fast(scene: &Scene) -> Vec<Finding> {
                         0.5 * speed / sound
                     ),
                 )
-                .blame(Guilty::key(format!("{what}.{name}"), format!("velocity {speed:.4e}")))
+                .blame(Suspect::key(format!("{what}.{name}"), format!("velocity {speed:.4e}")))
                 .blame(body(model, &slowest.name, format!("speed of sound {sound:.4e}")))
                 .advise("check the units of velocity, of time, of modulus and of density"),
             );
@@ -164,7 +164,7 @@ pub(super) fn apart(
             interface.name, -way.least
         ),
     )
-    .blame(Guilty::interface(
+    .blame(Suspect::interface(
         &interface.name,
         format!("gap {gap:.3e} at the start"),
     ));

@@ -1,7 +1,7 @@
 //! Displacements and loads that strain bodies more than small strains allow.
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity};
+use super::super::finding::{Finding, Severity, Suspect};
 use super::super::places::{body, bounds};
 use super::driven::{apart, approach, pair};
 use super::measured::Measured;
@@ -68,8 +68,8 @@ fn pulled(model: &Model, body: &Body) -> Option<Finding> {
                             strain * length
                         ))
                         .blame(super::super::places::body(model, &body.name, format!("strain {strain:.2}")))
-                        .blame(Guilty::key(format!("support.{first}"), ""))
-                        .blame(Guilty::key(format!("support.{second}"), "")),
+                        .blame(Suspect::key(format!("support.{first}"), ""))
+                        .blame(Suspect::key(format!("support.{second}"), "")),
                     );
                 }
             }
@@ -117,7 +117,7 @@ fn loaded(model: &Model, body: &Body) -> Option<Finding> {
                         section(c)
                     ))
                     .blame(super::super::places::body(model, &body.name, format!("strain {strain:.2}")))
-                    .blame(Guilty::key(format!("load.{}", load.name), "")),
+                    .blame(Suspect::key(format!("load.{}", load.name), "")),
                 );
             }
         }
@@ -159,7 +159,7 @@ pub(super) fn pressed(
         "interface {}: what is prescribed presses its sides {depth:.3e} into each other, {strain:.2} of the bodies behind them",
         interface.name
     ))
-    .blame(Guilty::interface(&interface.name, format!("pressed by {depth:.3e}")));
+    .blame(Suspect::interface(&interface.name, format!("pressed by {depth:.3e}")));
     Some(elastic.iter().fold(found, |f, b| {
         f.blame(body(model, &b.name, format!("strain about {strain:.2}")))
     }))

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity, What};
+use super::super::finding::{Finding, LocationKind, Severity, Suspect};
 use super::common::{roles, sides};
 use crate::body::couplings::Row;
 use crate::contact::facet_point::evaluate;
@@ -113,8 +113,8 @@ fn held(model: &Model, interface: &InterfaceDefinition, surface: &Surface) -> Op
                 support.name, surface.side
             ),
         )
-        .blame(Guilty::key(format!("support.{}.set", support.name), format!("{count} of {} points of the surface", surface.points.len())))
-        .blame(Guilty::interface(name, format!("its {}", surface.side)));
+        .blame(Suspect::key(format!("support.{}.set", support.name), format!("{count} of {} points of the surface", surface.points.len())))
+        .blame(Suspect::interface(name, format!("its {}", surface.side)));
         return Some(
             node.into_iter()
                 .fold(finding, |f, p| f.blame(point(model, surface.body, p)))
@@ -158,8 +158,8 @@ fn stiffened(scene: &Scene, interface: &InterfaceDefinition, surface: &Surface) 
                     coupling.name, surface.side
                 ),
             )
-            .blame(Guilty::key(format!("coupling.{}", coupling.name), format!("{count} of {} points of the surface", on.len())))
-            .blame(Guilty::interface(name, format!("its {}", surface.side)))
+            .blame(Suspect::key(format!("coupling.{}", coupling.name), format!("{count} of {} points of the surface", on.len())))
+            .blame(Suspect::interface(name, format!("its {}", surface.side)))
             .advise("let the reference point lead the face where the body is held in truth, away from the contact, or make the body `rigid = true`"),
         );
     }
@@ -192,8 +192,8 @@ fn loaded(model: &Model, interface: &InterfaceDefinition, surface: &Surface) -> 
                     load.name, surface.side
                 ),
             )
-            .blame(Guilty::key(format!("load.{}.set", load.name), format!("{inside} points of the surface")))
-            .blame(Guilty::interface(name, format!("its {}", surface.side)))
+            .blame(Suspect::key(format!("load.{}.set", load.name), format!("{inside} points of the surface")))
+            .blame(Suspect::interface(name, format!("its {}", surface.side)))
             .advise("load the surface that the force comes from; the force of contact follows from balance"),
         );
     }
@@ -242,8 +242,8 @@ fn twice(first: &InterfaceDefinition, second: &InterfaceDefinition) -> Finding {
             first.name, second.name
         ),
     )
-    .blame(Guilty::interface(&first.name, ""))
-    .blame(Guilty::interface(&second.name, "the same surfaces"))
+    .blame(Suspect::interface(&first.name, ""))
+    .blame(Suspect::interface(&second.name, "the same surfaces"))
     .advise("remove one of the two, or list them in different steps (`step.interfaces`); `step.change` changes the laws of one interface")
 }
 
@@ -257,13 +257,13 @@ fn nodes(interface: &InterfaceDefinition) -> [BTreeSet<usize>; 2] {
     ]
 }
 
-fn point(model: &Model, body: &Body, point: usize) -> Guilty {
-    Guilty {
-        what: What::Node,
+fn point(model: &Model, body: &Body, point: usize) -> Suspect {
+    Suspect {
+        what: LocationKind::Node,
         name: body.name.clone(),
         id: Some(model.mesh.point_ids[point]),
         body: Some(body.name.clone()),
-        ..Guilty::default()
+        ..Suspect::default()
     }
     .at(model.mesh.points[point])
 }

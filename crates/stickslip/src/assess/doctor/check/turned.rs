@@ -1,7 +1,7 @@
 //! Rotations that supports prescribe and that are too far for small ones.
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity};
+use super::super::finding::{Finding, Severity, Suspect};
 use super::common::{median, times};
 use super::driven::pair;
 use super::measured::Measured;
@@ -215,12 +215,12 @@ fn finding(scene: &Scene, turn: &Turn, missed: Option<(&str, [f64; 2])>) -> Find
             turn.support, turn.what
         ),
     )
-    .blame(Guilty::key(
+    .blame(Suspect::key(
         format!("support.{}", turn.support),
         format!("{angle:.3} rad"),
     ));
     if let Some((interface, _)) = missed {
-        found = found.blame(Guilty::interface(interface, "turned by a small rotation"));
+        found = found.blame(Suspect::interface(interface, "turned by a small rotation"));
     }
     for &b in &turn.bodies {
         let name = &model.bodies[b].name;

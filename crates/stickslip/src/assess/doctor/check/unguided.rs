@@ -1,7 +1,7 @@
 //! Bodies that stand on a curved surface as a ball stands on a ball, with nothing beside it.
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity};
+use super::super::finding::{Finding, Severity, Suspect};
 use super::super::places::body;
 use super::super::surfaces::Opposite;
 use super::curved::rest;
@@ -76,7 +76,7 @@ pub(super) fn check(view: &View, interface: &InterfaceDefinition) -> Option<Find
                 ),
             )
             .blame(body(model, &owner.name, "held beside its contact by nothing".into()))
-            .blame(Guilty::interface(name, "the only thing that holds it"))
+            .blame(Suspect::interface(name, "the only thing that holds it"))
             .advise("support its motion along the contact where it is guided in truth: `[support.NAME]` of the points that are loaded, across the load"),
         );
     }

@@ -4,7 +4,7 @@
 //! sound in them lie in known ranges; what lies in none, or makes two bodies differ by the factor between units, is reported.
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity};
+use super::super::finding::{Finding, Severity, Suspect};
 use super::common::diameter;
 use crate::body::Space;
 use crate::model::Body;
@@ -189,7 +189,7 @@ fn thickness(model: &Model, all: &[Numbers]) -> Option<Finding> {
         finding(format!(
             "the thickness of {thickness} is {ratio:.3e} times the size of the largest body, {largest:.3e}: is one in millimetres and the other in metres?"
         ))
-        .blame(Guilty::key("model.thickness", format!("{thickness}")))
+        .blame(Suspect::key("model.thickness", format!("{thickness}")))
     })
 }
 
@@ -220,7 +220,7 @@ fn alone(model: &Model, n: &Numbers, heavy: bool) -> Option<Finding> {
     let (si, mm) = (plausible(&SYSTEMS[0]), plausible(&SYSTEMS[1]));
     let blame = |f: Finding, remark: String| {
         f.blame(super::super::places::body(model, name, remark))
-            .blame(Guilty::key(format!("body.{name}.material"), ""))
+            .blame(Suspect::key(format!("body.{name}.material"), ""))
     };
     if !SYSTEMS.iter().any(plausible) {
         return Some(blame(

@@ -1,7 +1,7 @@
 //! Velocities given to points that have no mass.
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity};
+use super::super::finding::{Finding, Severity, Suspect};
 use crate::model::definition::Initial;
 use crate::model::scene::Scene;
 use crate::solve::inertia::light;
@@ -39,7 +39,7 @@ fn massless(scene: &Scene, initial: &Initial) -> Option<Finding> {
                 step.name
             ),
         )
-        .blame(Guilty::key(format!("initial.{name}.set"), "points without mass"))
+        .blame(Suspect::key(format!("initial.{name}.set"), "points without mass"))
         .advise("give the velocity to the whole body, or to points behind its surface")
         .advise("keep the mass where it is (`dynamic.contact-mass = \"as-meshed\"`)"),
     )

@@ -1,7 +1,7 @@
 //! Tables of the problem file that nothing uses.
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity};
+use super::super::finding::{Finding, Severity, Suspect};
 use crate::model::definition::Model;
 
 pub(super) fn check(model: &Model) -> Option<Finding> {
@@ -28,7 +28,7 @@ pub(super) fn check(model: &Model) -> Option<Finding> {
             Some("obstacle") => "no interface has it as `primary`: bodies pass through it",
             _ => "named nowhere",
         };
-        f.blame(Guilty::key(key, remark))
+        f.blame(Suspect::key(key, remark))
     });
     Some(finding.advise("name it where it is meant to act, or remove it"))
 }

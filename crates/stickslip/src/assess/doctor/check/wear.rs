@@ -1,7 +1,7 @@
 //! Wear that is faster than any, and wear that is explicit, which is stable below a length of increments only.
 
 use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Guilty, Severity};
+use super::super::finding::{Finding, Severity, Suspect};
 use super::super::friction::friction_coefficient;
 use super::common::{roles, sides};
 use crate::assess::view::View;
@@ -50,7 +50,7 @@ fn too_fast(model: &Model, interface: &InterfaceDefinition) -> Option<Finding> {
                     SOFTEST / young
                 ),
             )
-            .blame(Guilty::key(format!("interface.{}.wear.{kind}", interface.name), format!("{rate:.3e}")))
+            .blame(Suspect::key(format!("interface.{}.wear.{kind}", interface.name), format!("{rate:.3e}")))
             .blame(super::super::places::body(model, &name, format!("modulus {young:.3e}")))
             .advise("a coefficient without unit, 1e-7 to 1e-2, is that of `wear.archard-hardness`, with the hardness beside it; that of `wear.archard` is divided by the hardness: 1e-17 to 1e-12 per pascal for metals")
             .advise("mm³/(N m), as tables have it, is 1e-9 per pascal, and 1e-3 per megapascal")
@@ -95,7 +95,7 @@ pub(super) fn check(view: &View, interface: &InterfaceDefinition) -> Option<Find
                 jumps.concat()
             ),
         )
-        .blame(Guilty::key(format!("interface.{name}.wear-feedback"), ""))
+        .blame(Suspect::key(format!("interface.{name}.wear-feedback"), ""))
         .advise("`wear-feedback = \"implicit\"`, the default, has no such limit"),
     )
 }

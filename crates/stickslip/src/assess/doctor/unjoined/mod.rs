@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use placed::{Boundary, NEAR, Overlap, Placed, ROUNDING, boundaries, gap};
 
 use super::cause::DoctorCause;
-use super::finding::{Finding, Guilty, Severity};
+use super::finding::{Finding, Severity, Suspect};
 use super::places::{body as body_at, bounds};
 use super::record::note;
 use crate::contact::interface::{InterfaceDefinition, Primary};
@@ -45,17 +45,17 @@ struct Pair {
 
 /// All pairs that nothing joins.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Unjoined {
+pub(crate) struct MissingInterface {
     boundaries: Vec<Boundary>,
     pairs: Vec<Pair>,
 }
 
-impl Unjoined {
+impl MissingInterface {
     /// Pairs of a model, displaced by `u` at the start.
     pub fn new(scene: &Scene) -> Self {
         let model = scene.model;
         let u = &scene.displacements();
-        let mut out = Unjoined::default();
+        let mut out = MissingInterface::default();
         let end = model.steps.last().map_or(0.0, |s| s.end);
         for body in 0..model.bodies.len() {
             let bodies = (0..body).map(Other::Body);
@@ -365,7 +365,7 @@ fn finding(scene: &Scene, pair: &Pair, severity: Severity, message: String) -> B
         Other::Obstacle(i) => {
             let name = &scene.contact.interfaces[i].name;
             (
-                finding.blame(Guilty::interface(name, "its obstacle")),
+                finding.blame(Suspect::interface(name, "its obstacle")),
                 format!("the obstacle of {name}"),
             )
         }
@@ -380,17 +380,17 @@ struct Blamed(Finding, String);
 
 impl Blamed {
     fn blame_at(self, at: Vec3) -> Finding {
-        self.0.blame(Guilty::body(&self.1, "here").at(at))
+        self.0.blame(Suspect::body(&self.1, "here").at(at))
     }
 }
 
-impl Unjoined {
+impl MissingInterface {
     /// Takes note of bodies that pass through others.
     pub fn judge(&mut self, scene: &Scene, findings: &mut Vec<Finding>) {
         for mut finding in self.look(scene) {
             let both: Vec<&str> = finding.guilty.iter().map(|g| g.name.as_str()).collect();
             let known = findings.iter().any(|f| {
-                let same = |g: &Guilty| both.contains(&g.name.as_str());
+                let same = |g: &Suspect| both.contains(&g.name.as_str());
                 let warned = f.severity >= Severity::Warning;
                 warned && f.cause == finding.cause && f.guilty.iter().all(same)
             });
