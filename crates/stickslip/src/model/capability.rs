@@ -174,11 +174,17 @@ pub struct Limit {
     pub help: &'static str,
 }
 
+impl Limit {
+    fn holds(&self, subject: Subject, feature: Feature) -> bool {
+        self.subjects.contains(&subject) && self.features.contains(&feature)
+    }
+}
+
 const LEAVE_STEP: &str = "leave this step out, or `rotation` of the body";
 const NO_TEMPERATURES: &str = "leave temperatures out, or `rotation` of the body";
 
 /// The limits, each in a sentence.
-pub const LIMITS: &[Limit] = &[
+pub static LIMITS: &[Limit] = &[
     Limit {
         subjects: &[Axle, Free, Cells, RigidAxle, RigidFree],
         features: &[Axisymmetric],
@@ -285,9 +291,7 @@ pub const LIMITS: &[Limit] = &[
 
 /// Why a subject does not go with a feature; `None` where it does.
 pub fn limit(subject: Subject, feature: Feature) -> Option<&'static Limit> {
-    LIMITS
-        .iter()
-        .find(|l| l.subjects.contains(&subject) && l.features.contains(&feature))
+    LIMITS.iter().find(|l| l.holds(subject, feature))
 }
 
 /// The table of what goes with what, in Markdown: a row for each feature, a column for each subject, and a note for each limit.
@@ -298,7 +302,7 @@ pub fn matrix() -> String {
         "---|".repeat(Subject::ALL.len())
     );
     for feature in Feature::ALL {
-        let cell = |subject| match LIMITS.iter().position(|l| is(limit(subject, feature), l)) {
+        let cell = |subject| match LIMITS.iter().position(|l| l.holds(subject, feature)) {
             Some(k) => format!("no ({})", k + 1),
             None => "yes".into(),
         };
@@ -310,10 +314,6 @@ pub fn matrix() -> String {
         text += &format!("{}. It {}. {}.\n", k + 1, limit.why, sentence(limit.help));
     }
     text
-}
-
-fn is(found: Option<&'static Limit>, limit: &'static Limit) -> bool {
-    found.is_some_and(|found| std::ptr::eq(found, limit))
 }
 
 /// With a capital at its beginning.
@@ -334,7 +334,8 @@ mod tests {
         for l in LIMITS {
             for &subject in l.subjects {
                 for &feature in l.features {
-                    assert!(is(limit(subject, feature), l), "{subject:?} {feature:?}");
+                    let all = LIMITS.iter().filter(|l| l.holds(subject, feature));
+                    assert_eq!(all.count(), 1, "{subject:?} {feature:?}");
                 }
             }
         }
