@@ -37,27 +37,12 @@ pub use outcome::{
 };
 
 use crate::error::RunError;
-use crate::model::capability::{Feature, Subject, limit};
+use crate::model::capability::Feature;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::model::modal::Modal;
 use crate::solve::solver::Solver;
-
-/// Why this step is not computed with the laws of the interfaces, if it is not: the state of a friction law is an unknown of small vibrations that slide, which these
-/// steps do not have. Real modes leave friction out.
-fn refusal(contact: &Contact, plan: &Modal) -> Option<String> {
-    let feature = match plan {
-        Modal::Real(_) => Feature::Modes,
-        Modal::Complex(_) => Feature::ComplexModes,
-        Modal::Harmonic(_) => Feature::Harmonic,
-    };
-    let limit = limit(Subject::FrictionState, feature)?;
-    let mut interfaces = contact.interfaces.iter();
-    let with = interfaces.find(|i| !i.laws.friction_law().states().is_empty())?;
-    let name = &with.name;
-    Some(format!("interface `{name}` {}: {}", limit.why, limit.help))
-}
 
 /// Does what a step without increments asks for.
 ///
@@ -70,7 +55,12 @@ pub(crate) fn compute(
     solver: &Solver,
     plan: &Modal,
 ) -> Result<ModalOutcome, RunError> {
-    if let Some(message) = refusal(contact, plan) {
+    let feature = match plan {
+        Modal::Real(_) => Feature::Modes,
+        Modal::Complex(_) => Feature::ComplexModes,
+        Modal::Harmonic(_) => Feature::Harmonic,
+    };
+    if let Some(message) = contact.refusal(feature) {
         return Err(linear::fault(frame, message));
     }
     let mut linear = linear::Linear::new(model, frame, contact, solver)?;

@@ -1,167 +1,78 @@
 //! What goes with what: the steps, methods, loads and supports that each formulation of a body knows, and friction with a state. Refusals of problems, the table that
 //! `stickslip models --matrix` prints and the page of the book are products of this one table.
 
-/// How a body is described, or a law that not everything goes with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Subject {
-    /// Small rotations.
-    Linear,
-    /// In a frame that a reference point carries: `rotation.with`.
-    Axle,
-    /// In a frame of its own: `rotation = "large"`.
-    Free,
-    /// In a frame for each cell: `rotation = "corotational"`.
-    Cells,
-    /// Rigid, with small rotations.
-    Rigid,
-    /// Rigid, and carried by a reference point.
-    RigidAxle,
-    /// Rigid, and turning freely.
-    RigidFree,
-    /// A friction law that keeps state variables.
-    FrictionState,
+/// An enum whose variants have names, of which there is a list.
+macro_rules! named {
+    ($(#[$doc:meta])* $type:ident { $( $variant:ident = $name:literal ),+ $(,)? }) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+        pub enum $type {
+            $( #[doc = $name] $variant ),+
+        }
+
+        impl $type {
+            /// All of them, in the order of the table.
+            pub const ALL: &'static [$type] = &[$( $type::$variant ),+];
+
+            /// What the table calls it.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $( $type::$variant => $name ),+
+                }
+            }
+        }
+    };
 }
 
-use Subject::{Axle, Cells, Free, FrictionState, Linear, Rigid, RigidAxle, RigidFree};
-
-impl Subject {
-    /// All of them, in the order of the table.
-    pub const ALL: [Subject; 8] = [
-        Linear,
-        Axle,
-        Free,
-        Cells,
-        Rigid,
-        RigidAxle,
-        RigidFree,
-        FrictionState,
-    ];
-
-    /// What the table calls it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Linear => "small rotations",
-            Axle => "`rotation.with`",
-            Free => "`rotation = \"large\"`",
-            Cells => "`rotation = \"corotational\"`",
-            Rigid => "`rigid`",
-            RigidAxle => "`rigid`, `rotation.with`",
-            RigidFree => "`rigid`, `rotation = \"large\"`",
-            FrictionState => "friction with a state",
-        }
+named! {
+    /// How a body is described, or a law that not everything goes with.
+    Subject {
+        Linear = "small rotations",
+        Axle = "`rotation.with`",
+        Free = "`rotation = \"large\"`",
+        Cells = "`rotation = \"corotational\"`",
+        Rigid = "`rigid`",
+        RigidAxle = "`rigid`, `rotation.with`",
+        RigidFree = "`rigid`, `rotation = \"large\"`",
+        FrictionState = "friction with a state",
     }
 }
 
-/// Something that a problem may use and that not everything goes with.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Feature {
-    /// Quasi-static steps.
-    Statics,
-    /// Implicit dynamic steps.
-    Implicit,
-    /// Explicit dynamic steps.
-    Explicit,
-    /// Steady sliding.
-    Steady,
-    /// Real modes.
-    Modes,
-    /// Complex modes.
-    ComplexModes,
-    /// Answers to harmonic loads.
-    Harmonic,
-    /// The sparse method.
-    Sparse,
-    /// The condensed method.
-    Condensed,
-    /// The multigrid method.
-    Multigrid,
-    /// An axis of symmetry.
-    Axisymmetric,
-    /// Pressure loads.
-    Pressure,
-    /// Loads other than pressures that turn with the body.
-    Following,
-    /// Centrifugal loads.
-    Centrifugal,
-    /// Springs between points of the body and the ground.
-    GroundSpring,
-    /// Temperatures.
-    Temperature,
-    /// Temperatures to start from.
-    InitialTemperature,
-    /// Displacements to start from.
-    InitialDisplacement,
-    /// Supports of some components of a point.
-    PartialSupport,
-    /// Couplings of points of the body to others.
-    Coupling,
-    /// Contact pairs of the start.
-    SmallSliding,
-    /// Ties.
-    Tie,
+named! {
+    /// Something that a problem may use and that not everything goes with.
+    Feature {
+        Statics = "quasi-static steps",
+        CycleJumps = "jumps over `cycles`",
+        Implicit = "implicit `dynamic` steps",
+        Explicit = "explicit `dynamic` steps",
+        Steady = "`steady` sliding",
+        Modes = "`modes`",
+        ComplexModes = "`complex-modes`",
+        Harmonic = "`harmonic`",
+        Sparse = "`method = \"sparse\"`",
+        Condensed = "`method = \"condensed\"`",
+        Multigrid = "`method = \"multigrid\"`",
+        Axisymmetric = "`space = \"axisymmetric\"`",
+        Pressure = "pressures",
+        Following = "other loads that `follow`",
+        Centrifugal = "`centrifugal` loads",
+        GroundSpring = "springs to ground on its points",
+        Temperature = "`temperature`",
+        InitialTemperature = "`initial.temperature`",
+        InitialDisplacement = "`initial.displacement`",
+        PartialSupport = "supports of some components of its points",
+        Coupling = "couplings of its points",
+        SmallSliding = "`kinematics.small-sliding`",
+        Tie = "`tied` interfaces",
+    }
 }
 
 use Feature::{
-    Axisymmetric, Centrifugal, ComplexModes, Condensed, Coupling, Explicit, Following,
+    Axisymmetric, Centrifugal, ComplexModes, Condensed, Coupling, CycleJumps, Explicit, Following,
     GroundSpring, Harmonic, Implicit, InitialDisplacement, InitialTemperature, Modes, Multigrid,
-    PartialSupport, Pressure, SmallSliding, Sparse, Statics, Steady, Temperature, Tie,
+    PartialSupport, SmallSliding, Steady, Temperature,
 };
-
-impl Feature {
-    /// All of them, in the order of the table.
-    pub const ALL: [Feature; 22] = [
-        Statics,
-        Implicit,
-        Explicit,
-        Steady,
-        Modes,
-        ComplexModes,
-        Harmonic,
-        Sparse,
-        Condensed,
-        Multigrid,
-        Axisymmetric,
-        Pressure,
-        Following,
-        Centrifugal,
-        GroundSpring,
-        Temperature,
-        InitialTemperature,
-        InitialDisplacement,
-        PartialSupport,
-        Coupling,
-        SmallSliding,
-        Tie,
-    ];
-
-    /// What the table calls it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Statics => "quasi-static steps",
-            Implicit => "implicit `dynamic` steps",
-            Explicit => "explicit `dynamic` steps",
-            Steady => "`steady` sliding",
-            Modes => "`modes`",
-            ComplexModes => "`complex-modes`",
-            Harmonic => "`harmonic`",
-            Sparse => "`method = \"sparse\"`",
-            Condensed => "`method = \"condensed\"`",
-            Multigrid => "`method = \"multigrid\"`",
-            Axisymmetric => "`space = \"axisymmetric\"`",
-            Pressure => "pressures",
-            Following => "other loads that `follow`",
-            Centrifugal => "`centrifugal` loads",
-            GroundSpring => "springs to ground on its points",
-            Temperature => "`temperature`",
-            InitialTemperature => "`initial.temperature`",
-            InitialDisplacement => "`initial.displacement`",
-            PartialSupport => "supports of some components of its points",
-            Coupling => "couplings of its points",
-            SmallSliding => "`kinematics.small-sliding`",
-            Tie => "`tied` interfaces",
-        }
-    }
-}
+use Subject::{Axle, Cells, Free, FrictionState, RigidAxle, RigidFree};
 
 /// Why some subjects do not go with some features.
 #[derive(Debug)]
@@ -287,6 +198,12 @@ pub static LIMITS: &[Limit] = &[
         why: "has a friction law that keeps a state, which steps of small vibrations do not follow",
         help: "compute `modes`, or the motion itself in a dynamic step",
     },
+    Limit {
+        subjects: &[FrictionState],
+        features: &[CycleJumps],
+        why: "has a friction law that keeps a state, which jumps over cycles do not follow",
+        help: "compute all cycles: leave `jump` out",
+    },
 ];
 
 /// Why a subject does not go with a feature; `None` where it does.
@@ -296,17 +213,18 @@ pub fn limit(subject: Subject, feature: Feature) -> Option<&'static Limit> {
 
 /// The table of what goes with what, in Markdown: a row for each feature, a column for each subject, and a note for each limit.
 pub fn matrix() -> String {
-    let names = Subject::ALL.map(Subject::name).join(" | ");
+    let row = |cells: &mut dyn Iterator<Item = String>| cells.collect::<Vec<_>>().join(" | ");
+    let names = row(&mut Subject::ALL.iter().map(|s| s.name().to_string()));
     let mut text = format!(
         "| | {names} |\n|---|{}\n",
         "---|".repeat(Subject::ALL.len())
     );
-    for feature in Feature::ALL {
-        let cell = |subject| match LIMITS.iter().position(|l| l.holds(subject, feature)) {
+    for &feature in Feature::ALL {
+        let cell = |&subject| match LIMITS.iter().position(|l| l.holds(subject, feature)) {
             Some(k) => format!("no ({})", k + 1),
             None => "yes".into(),
         };
-        let cells = Subject::ALL.map(cell).join(" | ");
+        let cells = row(&mut Subject::ALL.iter().map(cell));
         text += &format!("| {} | {cells} |\n", feature.name());
     }
     text += "\n";
@@ -339,7 +257,15 @@ mod tests {
                 }
             }
         }
-        assert!(Feature::ALL.iter().all(|&f| limit(Linear, f).is_none()));
-        assert!(Subject::ALL.iter().all(|&s| limit(s, Statics).is_none()));
+        assert!(
+            Feature::ALL
+                .iter()
+                .all(|&f| limit(Subject::Linear, f).is_none())
+        );
+        assert!(
+            Subject::ALL
+                .iter()
+                .all(|&s| limit(s, Feature::Statics).is_none())
+        );
     }
 }

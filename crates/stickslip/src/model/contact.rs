@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::capability::{Feature, Subject, limit};
 use super::definition::Step;
 use super::frame::{ContactMemory, Frame};
 use crate::body::couplings::{Couplings, CouplingsForce, CouplingsView};
@@ -129,6 +130,17 @@ impl Contact {
                 bring(look::energy(interface.view(history)).stored - before);
             }
         }
+    }
+
+    /// Why a feature is not computed with the laws of the interfaces, those of the program included; `None` where it is.
+    pub(crate) fn refusal(&self, feature: Feature) -> Option<String> {
+        let limit = limit(Subject::FrictionState, feature)?;
+        let mut interfaces = self.interfaces.iter();
+        let with = interfaces.find(|i| !i.laws.friction_law().states().is_empty())?;
+        Some(format!(
+            "interface `{}` {}: {}",
+            with.name, limit.why, limit.help
+        ))
     }
 
     /// Gives interfaces whose friction law has changed with a step the state variables with which the new one begins.

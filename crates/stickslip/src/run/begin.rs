@@ -13,12 +13,20 @@ use crate::integrate::explicit::Explicit;
 use crate::integrate::implicit::Implicit;
 use crate::integrate::integration::Integration;
 use crate::integrate::quasi_static::QuasiStatic;
-use crate::model::cycling::Block;
+use crate::modal::linear::fault;
+use crate::model::capability::Feature;
+use crate::model::cycling::{Block, Jump};
 use crate::model::frame::Motion;
 use crate::time::scheme::Method;
 
 /// Begins a step.
 pub(super) fn begin_step(run: &mut Run, step: usize) -> Result<(), Error> {
+    let jumps = run.model.steps[step].cycles;
+    if jumps.is_some_and(|c| c.jump != Jump::Fixed(1))
+        && let Some(message) = run.contact.refusal(Feature::CycleJumps)
+    {
+        return Err(fault(&run.frame, message).into());
+    }
     let kick = find_kick(run, step)?;
     run.frame.kick = kick;
     let Run {

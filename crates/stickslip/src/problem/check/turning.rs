@@ -1,11 +1,11 @@
 //! Bodies that turn by any angle, and what the [table of capabilities](crate::model::capability) says of all bodies and laws.
 
-use super::super::{Body, BodyRotation, Problem, SpaceKind};
+use super::super::{Body, BodyRotation, Cycles, Problem, SpaceKind};
 use super::findings::Findings;
 use super::names;
 use crate::body::loads::LoadKind;
-use crate::model::Solution;
 use crate::model::capability::{Feature, Subject, limit};
+use crate::model::{Jump, Solution};
 use crate::time::scheme::Method;
 
 pub(super) fn check(problem: &Problem, findings: &mut Findings) {
@@ -94,6 +94,10 @@ fn uses(problem: &Problem) -> Vec<Use> {
                 step.harmonic.as_ref().map(|_| Feature::Harmonic),
             ),
         ];
+        let every = |cycles: &Cycles| cycles.jump == Jump::Fixed(1);
+        if step.cycles.as_ref().is_some_and(|c| !every(c)) {
+            add(Feature::CycleJumps, &["step", &i, "cycles"]);
+        }
         for (key, feature) in kinds {
             if let Some(feature) = feature {
                 add(feature, &["step", &i, key]);

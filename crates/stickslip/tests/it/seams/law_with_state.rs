@@ -68,7 +68,8 @@ impl FrictionLaw for SlipWeakening {
     }
 }
 
-fn setup(problem: &Problem) -> Setup {
+/// A problem with the law in the place of that of its first interface.
+pub fn setup(problem: &Problem) -> Setup {
     let mut setup = problem
         .build(Path::new("."))
         .unwrap_or_else(|e| panic!("{e}"));
