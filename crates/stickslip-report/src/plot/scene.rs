@@ -90,6 +90,47 @@ fn choose(results: &Results, grid: &Grid, name: Option<&str>) -> Result<Option<F
     }
 }
 
+/// What is the same for all the times that are drawn.
+struct Extremes {
+    /// Least and largest value of the field; zeros where there is none.
+    range: [f64; 2],
+    /// Largest displacement.
+    largest: f64,
+}
+
+impl Extremes {
+    fn of(
+        results: &Results,
+        frames: &[usize],
+        grid: &Grid,
+        skin: &Skin,
+        field: Option<&Field>,
+    ) -> Result<Self, Error> {
+        let (mut range, mut largest) = (None::<[f64; 2]>, 0.0f64);
+        for &frame in frames {
+            let file = &results.frames[frame].file;
+            let points = vtu::read(file)?;
+            if points.points.len() != grid.points.points.len() {
+                return Err(fault(
+                    file,
+                    "it has another number of points than the first file that is drawn",
+                ));
+            }
+            let values = values(&points, skin, field);
+            if let Some([low, high]) = field::range(values.into_iter()) {
+                let [l, h] = range.unwrap_or([low, high]);
+                range = Some([l.min(low), h.max(high)]);
+            }
+            for &p in &skin.points {
+                let u = displacement(&points, p);
+                largest = largest.max(u.iter().map(|v| v * v).sum::<f64>().sqrt());
+            }
+        }
+        let range = range.unwrap_or([0.0; 2]);
+        Ok(Extremes { range, largest })
+    }
+}
+
 impl<'a> Scene<'a> {
     /// Reads what is to be drawn at these times.
     pub fn new(results: &'a Results, wanted: &Picture, frames: &[usize]) -> Result<Self, Error> {
@@ -112,28 +153,8 @@ impl<'a> Scene<'a> {
         }
         let field = choose(results, &grid, wanted.field.as_deref())?;
         let mut notes = Vec::new();
-        // Colours, and the factor of displacements, are those of all the times that are drawn.
-        let (mut range, mut largest) = (None::<[f64; 2]>, 0.0f64);
-        let each =
-            |frame: usize| -> Result<PointFields, Error> { vtu::read(&results.frames[frame].file) };
-        for &frame in frames {
-            let points = each(frame)?;
-            if points.points.len() != grid.points.points.len() {
-                return Err(fault(
-                    &results.frames[frame].file,
-                    "it has another number of points than the first file that is drawn",
-                ));
-            }
-            let values = values(&points, &skin, field.as_ref());
-            if let Some([low, high]) = field::range(values.into_iter()) {
-                let [l, h] = range.unwrap_or([low, high]);
-                range = Some([l.min(low), h.max(high)]);
-            }
-            for &p in &skin.points {
-                let u = displacement(&points, p);
-                largest = largest.max(u.iter().map(|v| v * v).sum::<f64>().sqrt());
-            }
-        }
+        let Extremes { range, largest } =
+            Extremes::of(results, frames, &grid, &skin, field.as_ref())?;
         let sheets: Vec<Vec<Sheet>> = (frames.iter())
             .map(|&frame| results.sheets(frame))
             .collect::<Result<_, Error>>()?;
@@ -144,7 +165,7 @@ impl<'a> Scene<'a> {
             (None, true) => 1.0,
             (None, false) => zoom::scale(skin.size(), largest, sheets.iter().flatten()),
         };
-        let (range, signed) = field::span_of(field.as_ref(), range.unwrap_or([0.0; 2]));
+        let (range, signed) = field::span_of(field.as_ref(), range);
         let colours = Scale {
             range,
             signed,
@@ -162,19 +183,21 @@ impl<'a> Scene<'a> {
             let near = if low.abs() <= high.abs() { low } else { high };
             (plane.axis, plane.at.unwrap_or(near))
         });
-        let mut bounds = zoom::NOTHING;
-        for &frame in frames {
-            let points = each(frame)?;
+        let box_of = |points: &PointFields, bounds: &mut zoom::Box2| {
             for (local, &p) in skin.points.iter().enumerate() {
                 if !shown.bodies[skin.owner[local] as usize] {
                     continue;
                 }
-                let u = displacement(&points, p);
+                let u = displacement(points, p);
                 let x = [0, 1, 2].map(|c| skin.positions[local][c] + scale * u[c]);
                 for x in zoom::copies(x, mirror) {
-                    zoom::include(&mut bounds, camera.see(x));
+                    zoom::include(bounds, camera.see(x));
                 }
             }
+        };
+        let mut bounds = zoom::NOTHING;
+        for &frame in frames {
+            box_of(&vtu::read(&results.frames[frame].file)?, &mut bounds);
         }
         let patch = zoom::patch(sheets.iter().flatten(), scale, mirror, &camera);
         let nearer = match wanted.zoom {
@@ -235,26 +258,7 @@ impl<'a> Scene<'a> {
             let (x, most) = self.most(&points);
             marks::peak(x, most, &sheets, &drawn, &self.units, canvas);
         }
-        let title = self.results.title();
-        let title = shorten(&title, 1.35 * em, width - 2.0 * margin);
-        canvas.text(
-            [margin, 2.1 * em],
-            &title,
-            1.35 * em,
-            Anchor::Start,
-            INK,
-            false,
-        );
-        let time = self.results.frames[frame].time;
-        let mut line = format!("time {}", axis::number(time, 5));
-        if self.scale != 1.0 {
-            line += &format!(", displacements × {}", axis::number(self.scale, 4));
-        }
-        if let Some(words) = &self.shown.words {
-            line += &format!(", {words}");
-        }
-        let line = shorten(&line, em, width - 2.0 * margin);
-        canvas.text([margin, 3.6 * em], &line, em, Anchor::Start, SOFT, false);
+        self.headline(frame, em, [margin, width - 2.0 * margin], canvas);
         if let Some(field) = &self.field {
             let x = width - bar - 0.4 * em;
             let values = values(&points, &self.skin, Some(field));
@@ -280,25 +284,9 @@ impl<'a> Scene<'a> {
             );
         }
         if self.seen != self.bounds {
-            // Where on the whole this is.
             let size = [bar - 1.4 * em, 9.0 * em];
             let corner = [width - bar - 0.4 * em, height - 2.6 * em - size[1]];
-            let (place, _) = self.bodies(
-                frame,
-                &points,
-                [corner, size],
-                self.bounds,
-                0.35 * em,
-                canvas,
-            );
-            let [low, high] = self.seen.map(|x| place.place([x[0], x[1], 0.0]));
-            let fine = FINE as f64;
-            let [x0, x1] = [low, high]
-                .map(|x| (corner[0] + x[0] / fine).clamp(corner[0], corner[0] + size[0]));
-            let [y0, y1] = [low, high]
-                .map(|x| (corner[1] + x[1] / fine).clamp(corner[1], corner[1] + size[1]));
-            let line = [[x0, y0], [x1, y0], [x1, y1], [x0, y1], [x0, y0]];
-            canvas.line(&line, Pen::new([209, 73, 91], 0.18 * em));
+            self.inset(frame, &points, [corner, size], em, canvas);
         }
         legend::triad(
             &self.camera,
@@ -308,6 +296,51 @@ impl<'a> Scene<'a> {
             canvas,
         );
         Ok(())
+    }
+
+    /// Title and time, from the left margin over a width.
+    fn headline(&self, frame: usize, em: f64, [margin, width]: [f64; 2], canvas: &mut dyn Canvas) {
+        let title = self.results.title();
+        let title = shorten(&title, 1.35 * em, width);
+        canvas.text(
+            [margin, 2.1 * em],
+            &title,
+            1.35 * em,
+            Anchor::Start,
+            INK,
+            false,
+        );
+        let time = self.results.frames[frame].time;
+        let mut line = format!("time {}", axis::number(time, 5));
+        if self.scale != 1.0 {
+            line += &format!(", displacements × {}", axis::number(self.scale, 4));
+        }
+        if let Some(words) = &self.shown.words {
+            line += &format!(", {words}");
+        }
+        let line = shorten(&line, em, width);
+        canvas.text([margin, 3.6 * em], &line, em, Anchor::Start, SOFT, false);
+    }
+
+    /// The whole, small, with a frame around what is seen of it.
+    fn inset(
+        &self,
+        frame: usize,
+        points: &PointFields,
+        [corner, size]: [[f64; 2]; 2],
+        em: f64,
+        canvas: &mut dyn Canvas,
+    ) {
+        let area = [corner, size];
+        let (place, _) = self.bodies(frame, points, area, self.bounds, 0.35 * em, canvas);
+        let [low, high] = self.seen.map(|x| place.place([x[0], x[1], 0.0]));
+        let fine = FINE as f64;
+        let [x0, x1] =
+            [low, high].map(|x| (corner[0] + x[0] / fine).clamp(corner[0], corner[0] + size[0]));
+        let [y0, y1] =
+            [low, high].map(|x| (corner[1] + x[1] / fine).clamp(corner[1], corner[1] + size[1]));
+        let line = [[x0, y0], [x1, y0], [x1, y1], [x0, y1], [x0, y0]];
+        canvas.line(&line, Pen::new([209, 73, 91], 0.18 * em));
     }
 
     /// Where the largest value of the field is on the bodies that are drawn, and that value; nothing less than zero.
