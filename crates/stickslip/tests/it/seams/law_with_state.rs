@@ -221,6 +221,19 @@ fn states_of_open_points_and_of_laws_that_change() {
     let (names, _) = look::table(support::contact(&simulation), u);
     assert!(!names.contains(&"SLIDPATH".to_string()));
 }
+/// An interface that ends to act is open, though its points slid in the last increment in which it did.
+#[test]
+fn states_change_while_an_interface_does_not_act() {
+    let text = dragged("sparse", STEP) + "[[step]]\ninterfaces = []\nincrements.fixed = 4\n";
+    let before = run(&support::problem(&dragged("sparse", STEP)));
+    let after = run(&support::problem(&text));
+    let healed = (-1.0 / LAW.heals).exp();
+    let paths = column(&before, "SLIDPATH");
+    for (a, b) in paths.iter().zip(column(&after, "SLIDPATH")) {
+        assert!(*a > 1e-4 && (b / a / healed - 1.0).abs() < 1e-12, "{a} {b}");
+    }
+}
+
 #[test]
 fn modes_of_sliding_refuse_a_law_with_states() {
     let text = dragged("sparse", STEP) + "[[step]]\ncomplex-modes = { count = 2 }\n";
