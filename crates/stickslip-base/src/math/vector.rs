@@ -11,6 +11,17 @@ pub fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
+/// `a - b`.
+pub fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a - b).collect()
+}
+
+/// `first a + (1 - first) b`.
+pub fn weighted_mean(first: f64, a: &[f64], b: &[f64]) -> Vec<f64> {
+    let both = a.iter().zip(b);
+    both.map(|(a, b)| first * a + (1.0 - first) * b).collect()
+}
+
 /// The Euclidean norm.
 #[inline]
 pub fn norm(a: &[f64]) -> f64 {

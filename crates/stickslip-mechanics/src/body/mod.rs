@@ -21,6 +21,7 @@ mod kernel;
 pub mod loads;
 mod mass;
 mod medium;
+pub mod model;
 mod moments;
 mod operator;
 mod portion;

@@ -6,16 +6,7 @@ use super::operator::Operator;
 use super::settings::Settings;
 use super::statistics::Statistics;
 use crate::linear::BlockCsr;
-use crate::system::{Assembler, StepFailure};
-
-/// Elastic forces with their derivative.
-pub trait NonlinearBody {
-    /// Writes the internal forces at displacements `u` `[N]`, both by dof.
-    fn forces(&self, u: &[f64], out: &mut [f64]);
-
-    /// Their derivative by displacements, and a matrix of the same pattern that is like it and positive definite where supports hold the bodies, of which factors are made `[N/m]`.
-    fn tangents(&self, u: &[f64]) -> [BlockCsr; 2];
-}
+use crate::system::{Assembler, NonlinearBody, StepFailure};
 
 /// `f(u) - external` with prescribed displacements. Newton's method has the exact derivative; GMRES solves with it, preconditioned by a factor of its positive part, which
 /// is made anew when it has become too different.
@@ -75,7 +66,7 @@ impl Bulk for NonlinearBulk<'_> {
 
     fn forces(&mut self, u: &[f64], out: &mut [f64]) -> f64 {
         self.at.copy_from_slice(u);
-        self.curved.forces(u, out);
+        self.curved.write_forces(u, out);
         let (mut internal, mut external) = (0.0, 0.0);
         for ((f, e), &fixed) in out.iter_mut().zip(&self.external).zip(&self.fixed) {
             if fixed {

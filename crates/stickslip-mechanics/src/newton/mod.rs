@@ -52,7 +52,7 @@ mod strategy;
 mod system;
 
 pub use bulk::Bulk;
-pub use curved_bulk::{NonlinearBody, NonlinearBulk};
+pub use curved_bulk::NonlinearBulk;
 pub use factors::{Factors, FactorsRecipe, MOST_FACTORS};
 pub use failure::describe;
 pub use grids::BodyPoints;
@@ -65,3 +65,6 @@ pub use sparse_bulk::{Origin, SparseBulk};
 pub use statistics::{FactorSizes, Hierarchies, Seconds, Statistics, Substructures};
 pub use strategy::{Fallback, Strategy};
 pub use system::System;
+
+#[cfg(test)]
+mod tests;

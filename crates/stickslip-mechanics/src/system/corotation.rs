@@ -175,6 +175,31 @@ impl Corotations {
         }
     }
 
+    /// Writes forces in space at displacements `u`, where `internal` writes those in the frames at the displacements that are left there.
+    pub fn forces(&self, u: &[f64], internal: impl FnOnce(&[f64], &mut [f64]), out: &mut [f64]) {
+        let turns = self.turns(u);
+        let local = self.local(&turns, u);
+        internal(&local, out);
+        self.outward(&turns, &local, out);
+    }
+
+    /// Writes forces in space at displacements `u` and velocities `v`, where `matrix` writes those in the frames at the velocities that are left there.
+    pub fn damping(
+        &self,
+        u: &[f64],
+        v: &[f64],
+        matrix: impl FnOnce(&[f64], &mut [f64]),
+        out: &mut [f64],
+    ) {
+        if self.is_empty() {
+            return matrix(v, out);
+        }
+        let turns = self.turns(u);
+        let local = self.local(&turns, u);
+        matrix(&self.deforming(&turns, &local, v), out);
+        self.outward(&turns, &local, out);
+    }
+
     /// `R Pᵀ g`: forces in space from those in the frames, where displacements there are `local`.
     pub fn outward(&self, turns: &[BodyTurn], local: &[f64], g: &mut [f64]) {
         for (body, turn) in self.all.iter().zip(turns) {

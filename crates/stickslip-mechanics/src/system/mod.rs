@@ -3,6 +3,7 @@
 mod amplitude;
 mod assembler;
 mod body_frames;
+mod body_model;
 mod constraints;
 mod corotation;
 mod dofs;
@@ -18,6 +19,7 @@ mod spinning;
 pub use amplitude::{Amplitude, AmplitudeError};
 pub use assembler::{Assembler, ContactBlock, ContactPair, Tangent};
 pub use body_frames::{BodyFrame, BodyFrames, Carrier};
+pub use body_model::{BodyModel, Deformed, NonlinearBody, Product};
 pub use constraints::Constraints;
 pub use corotation::{BodyTurn, Corotations, frame_of};
 pub use dofs::{Component, Dofs, Motion};

@@ -5,7 +5,6 @@
 //! ```
 
 use crate::contact::look;
-use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::exact::{Exact, Mobility};
@@ -13,6 +12,7 @@ use super::onset::{AFTER, initial_contact, look_at_contact};
 use crate::body::internal::{InternalForce, largest_eigenvalue};
 use crate::contact::interface::{Conditions, History, Interface, use_springs};
 use crate::error::{Error, RunError};
+use crate::math::vector::dot;
 use crate::model::contact::Contact;
 use crate::model::definition::{Dynamic, Model};
 use crate::model::frame::Frame;
@@ -157,20 +157,15 @@ impl Explicit {
         if factors.is_empty() {
             return;
         }
-        let bodies = &model.corotations;
-        let turns = bodies.turns(u);
-        let (mut local, mut v) = (Vec::new(), Cow::Borrowed(v));
-        if !bodies.is_empty() {
-            local = bodies.local(&turns, u);
-            v = Cow::Owned(bodies.deforming(&turns, &local, &v));
-        }
-        let both = factors.iter().zip(v.iter());
-        let scaled: Vec<f64> = both.map(|(r, v)| r[1] * v).collect();
-        self.internal.apply(&scaled, forces);
-        for (i, d) in forces.iter_mut().enumerate() {
-            *d += factors[i][0] * self.mass[i] * v[i];
-        }
-        bodies.outward(&turns, &local, forces);
+        let (internal, mass) = (&mut self.internal, &self.mass);
+        let matrix = |v: &[f64], forces: &mut [f64]| {
+            let scaled: Vec<f64> = factors.iter().zip(v).map(|(r, v)| r[1] * v).collect();
+            internal.apply(&scaled, forces);
+            for (i, d) in forces.iter_mut().enumerate() {
+                *d += factors[i][0] * mass[i] * v[i];
+            }
+        };
+        model.corotations.damping(u, v, matrix, forces);
     }
 
     /// Works out the forces of bodies and springs at these displacements.
@@ -179,13 +174,14 @@ impl Explicit {
         if bodies.is_empty() {
             self.internal.apply(u, &mut self.force);
         } else {
-            let turns = bodies.turns(u);
-            let local = bodies.local(&turns, u);
-            self.internal.apply(&local, &mut self.force);
-            let stored = local.iter().zip(&self.force).map(|(u, f)| u * f);
             let springs = self.springs.iter().map(|&(dof, k)| k * u[dof] * u[dof]);
-            self.stored = Some(stored.sum::<f64>() + springs.sum::<f64>());
-            bodies.outward(&turns, &local, &mut self.force);
+            let springs: f64 = springs.sum();
+            let (internal, stored) = (&mut self.internal, &mut self.stored);
+            let apply = |local: &[f64], forces: &mut [f64]| {
+                internal.apply(local, forces);
+                *stored = Some(dot(local, forces) + springs);
+            };
+            bodies.forces(u, apply, &mut self.force);
         }
         for &(dof, k) in &self.springs {
             self.force[dof] += k * u[dof];

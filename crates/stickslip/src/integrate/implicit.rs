@@ -8,7 +8,7 @@ use crate::contact::look;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use crate::math::vector::dot;
+use crate::math::vector::{difference, dot, weighted_mean};
 use crate::model::contact::Contact;
 use crate::model::definition::{ContactAt, Dynamic, Model};
 use crate::model::frame::Frame;
@@ -16,13 +16,12 @@ use crate::model::ledger::Flow;
 use crate::newton::{Converged, Origin};
 use crate::solve::accepted::Accepted;
 use crate::solve::checks::{check_candidates, check_change};
-use crate::solve::elastic::mix;
+use crate::solve::inertia::Inertia;
 use crate::solve::inertia::in_motion;
-use crate::solve::inertia::{Inertia, times};
 use crate::solve::iteration::{Load, Task};
 use crate::solve::solver::{Solver, entries};
 use crate::system::{
-    BodyFrames, Cause, Constraints, IncrementalRotation, Rate, Stage, State, StepFailure,
+    BodyFrames, Cause, Constraints, Deformed, IncrementalRotation, Rate, Stage, State, StepFailure,
 };
 use crate::time::Trial;
 use crate::time::newmark::{Increment, error_factor};
@@ -70,12 +69,29 @@ struct Guess {
     scale: f64,
 }
 
+impl Solved {
+    fn deformed(&self) -> Deformed<'_> {
+        Deformed {
+            u: &self.state.u,
+            forces: &self.internal,
+        }
+    }
+}
+
 /// What an increment starts from.
 #[derive(Clone, Copy)]
 struct IncrementStart<'a> {
-    model: &'a Model,
     frame: &'a Frame,
     solver: &'a Solver,
+}
+
+impl<'a> IncrementStart<'a> {
+    fn deformed(self) -> Deformed<'a> {
+        Deformed {
+            u: &self.frame.state.u,
+            forces: &self.frame.motion.internal,
+        }
+    }
 }
 
 /// How bodies move in an increment, and what the forces of the interfaces at its start and end count.
@@ -84,6 +100,27 @@ struct IncrementScheme<'a> {
     increment: &'a Increment<'a>,
     weights: [f64; 2],
     spinning: &'a IncrementalRotation,
+}
+
+/// How an increment ends in which masses meet.
+struct ImpulseEnd<'a> {
+    fixed: &'a [bool],
+    dt: f64,
+    rate: Rate<'a>,
+    frames: Option<&'a Arc<BodyFrames>>,
+}
+
+/// What holds in all passes in which the equilibrium of an increment is sought.
+#[derive(Clone, Copy)]
+struct Sought<'a> {
+    model: &'a Model,
+    frame: &'a Frame,
+    trial: Trial,
+    constraints: &'a Constraints,
+    rate: Rate<'a>,
+    /// How bodies that turn freely are seen.
+    sight: Option<&'a InertialFrame<'a>>,
+    scheme: IncrementScheme<'a>,
 }
 
 /// What the equilibrium at the stage is sought with.
@@ -199,12 +236,8 @@ impl Implicit {
             weights,
             spinning,
         };
-        let start = IncrementStart {
-            model,
-            frame,
-            solver,
-        };
-        let mut guess = scheme.guess(start, now, u, &external);
+        let start = IncrementStart { frame, solver };
+        let guess = scheme.guess(start, now, u, &external);
         let (mut gain, mut shift) = increment.rate();
         if let Some(sight) = &sight {
             // Contact is in space.
@@ -221,36 +254,17 @@ impl Implicit {
             ..State::default()
         };
         let frames = sight.as_ref().map(|sight| &sight.all);
-        let mut passes = 0;
-        let (converged, internal) = loop {
-            let balance = Balance {
-                guess: &guess,
-                constraints: constraints.clone(),
-                rate,
-                frames,
-            };
-            let found = scheme.solve(model, frame, contact, solver, balance, &mut at)?;
-            let Some(sight) = &sight else {
-                break found;
-            };
-            passes += 1;
-            sight.load(model, &at.u, trial.to, &mut external);
-            let start = IncrementStart {
-                model,
-                frame,
-                solver,
-            };
-            let next = scheme.guess(start, now, at.u.clone(), &external);
-            let (_, diagonal, _) = in_motion(&solver.inertia).matrix();
-            let end = Ended {
-                forces: &next.forces,
-                size: next.scale,
-            };
-            match sight.met(model, &found.0, end, &fixed, diagonal, passes)? {
-                Some(converged) => break (converged, next.internal),
-                None => guess = next,
-            }
+        let sought = Sought {
+            model,
+            frame,
+            trial,
+            constraints: &constraints,
+            rate,
+            sight: sight.as_ref(),
+            scheme: now,
         };
+        let (converged, internal) =
+            scheme.balanced(sought, contact, solver, guess, &mut external, &mut at)?;
         let inertia = in_motion(&solver.inertia);
         (at.v, at.a) = increment.motion(&at.u);
         for (a, _) in at.a.iter_mut().zip(&inertia.light).filter(|(_, l)| **l) {
@@ -258,52 +272,36 @@ impl Implicit {
         }
         model.links.impose(&mut at.v);
         model.links.impose(&mut at.a);
-        let start = IncrementStart {
-            model,
-            frame,
-            solver,
-        };
-        let solved = Solved {
+        let start = IncrementStart { frame, solver };
+        let mut solved = Solved {
             reactions: converged.forces.iter().map(|f| weights[1] * f).collect(),
             contact: converged.contact.clone(),
             external,
-            elastic: scheme.elastic_work(start, &at.u, &internal),
+            elastic: 0.0,
             internal,
             state: at,
         };
+        let ends = [start.deformed(), solved.deformed()];
+        solved.elastic = (solver.bodies).unstored_work(scheme.alphas.alpha_f, ends);
         check_candidates(contact, &solver.conditions)?;
         let (easy, travel) = scheme.judge(model, frame, inertia, dt, &solved)?;
         scheme.locate(model, frame, contact, trial)?;
-        let mut solved = solved;
         let mut flow = scheme.flow(start, now, &fixed, impulse, &solved);
-        let inertia = in_motion(&solver.inertia);
         if impulse {
-            let kick = kicked(model, inertia, &fixed, &solved.contact)?;
-            let part = 0.5 / scheme.alphas.beta - 1.0;
-            let accelerations = solved.state.a.iter_mut().zip(&kick);
-            accelerations.for_each(|(a, k)| *a += part * k);
-            inertia.lead(model, contact, trial.to, &fixed, &mut solved.state.a);
-            let at = solved.state.clone();
-            let stage = Stage {
-                from: &frame.state,
-                at: &at,
+            let end = ImpulseEnd {
+                fixed: &fixed,
                 dt,
-                rate: Some(rate),
+                rate,
                 frames,
             };
-            let mut forces = contact.forces(&frame.contacts, &solver.conditions);
-            let (interfaces, v) = (&mut forces.interfaces, &mut solved.state.v);
-            flow.impact = stop(model, inertia, &fixed, interfaces, &stage, v)?;
-            inertia.lead(model, contact, trial.to, &fixed, &mut solved.state.v);
+            flow.impact = scheme.end_impulse(model, frame, contact, solver, end, &mut solved)?;
         }
+        let inertia = in_motion(&solver.inertia);
         Ok(Accepted {
             flow,
             rate: Some((gain, shift)),
             kinetic: inertia.kinetic_energy(&solved.state.v),
-            strain: match model.corotations.is_empty() {
-                true => 0.5 * dot(&solved.state.u, &solved.internal),
-                false => solver.strain_energy(model, &solved.state.u),
-            },
+            strain: solver.bodies.energy(solved.deformed()),
             forces: solved.reactions,
             contact: solved.contact,
             external: solved.external,
@@ -313,6 +311,82 @@ impl Implicit {
             state: solved.state,
             ..Accepted::from_newton(&converged)
         })
+    }
+
+    /// Finds the equilibrium at the stage, in passes where bodies turn freely: the forces there, and elastic ones at the end.
+    fn balanced(
+        &self,
+        sought: Sought,
+        contact: &mut Contact,
+        solver: &mut Solver,
+        mut guess: Guess,
+        external: &mut Vec<f64>,
+        at: &mut State,
+    ) -> Result<(Converged, Vec<f64>), StepFailure> {
+        let Sought {
+            model,
+            frame,
+            trial,
+            constraints,
+            ..
+        } = sought;
+        for passes in 1.. {
+            let balance = Balance {
+                guess: &guess,
+                constraints: constraints.clone(),
+                rate: sought.rate,
+                frames: sought.sight.map(|sight| &sight.all),
+            };
+            let found = self.solve(model, frame, contact, solver, balance, at)?;
+            let Some(sight) = sought.sight else {
+                return Ok(found);
+            };
+            sight.load(model, &at.u, trial.to, external);
+            let start = IncrementStart { frame, solver };
+            let next = self.guess(start, sought.scheme, at.u.clone(), external);
+            let (_, diagonal, _) = in_motion(&solver.inertia).matrix();
+            let end = Ended {
+                forces: &next.forces,
+                size: next.scale,
+            };
+            match sight.met(model, &found.0, end, &constraints.fixed, diagonal, passes)? {
+                Some(converged) => return Ok((converged, next.internal)),
+                None => guess = next,
+            }
+        }
+        unreachable!("passes end")
+    }
+
+    /// Ends an increment in which masses meet: accelerations without the impulse, and velocities after it. What the impact takes `[J]`.
+    fn end_impulse(
+        &self,
+        model: &Model,
+        frame: &Frame,
+        contact: &mut Contact,
+        solver: &Solver,
+        end: ImpulseEnd,
+        solved: &mut Solved,
+    ) -> Result<f64, StepFailure> {
+        let inertia = in_motion(&solver.inertia);
+        let (fixed, t) = (end.fixed, solved.state.t);
+        let kick = kicked(model, inertia, fixed, &solved.contact)?;
+        let part = 0.5 / self.alphas.beta - 1.0;
+        let accelerations = solved.state.a.iter_mut().zip(&kick);
+        accelerations.for_each(|(a, k)| *a += part * k);
+        inertia.lead(model, contact, t, fixed, &mut solved.state.a);
+        let at = solved.state.clone();
+        let stage = Stage {
+            from: &frame.state,
+            at: &at,
+            dt: end.dt,
+            rate: Some(end.rate),
+            frames: end.frames,
+        };
+        let mut forces = contact.forces(&frame.contacts, &solver.conditions);
+        let (interfaces, v) = (&mut forces.interfaces, &mut solved.state.v);
+        let impact = stop(model, inertia, fixed, interfaces, &stage, v)?;
+        inertia.lead(model, contact, t, fixed, &mut solved.state.v);
+        Ok(impact)
     }
 
     /// The scheme of an increment: that of masses that meet has `β = γ/2`, see [`super::impulse`].
@@ -339,34 +413,6 @@ impl Implicit {
         }
     }
 
-    /// Elastic forces at the stage, with displacements and their forces at the end.
-    fn elastic_at_stage(&self, start: IncrementStart, u: &[f64], internal: &[f64]) -> Vec<f64> {
-        let IncrementStart {
-            model,
-            frame,
-            solver,
-        } = start;
-        let start = (frame.state.u.as_slice(), frame.motion.internal.as_slice());
-        solver.elastic_between(model, (self.alphas.alpha_f, start), u, internal)
-    }
-
-    /// Work of the elastic forces of the scheme over the increment, less what is stored: for linear ones `(½ - α_f) Δuᵀ K Δu`.
-    fn elastic_work(&self, start: IncrementStart, u: &[f64], internal: &[f64]) -> f64 {
-        let IncrementStart {
-            model,
-            frame,
-            solver,
-        } = start;
-        let du = difference(u, &frame.state.u);
-        if model.corotations.is_empty() {
-            let change = difference(internal, &frame.motion.internal);
-            return (0.5 - self.alphas.alpha_f) * dot(&du, &change);
-        }
-        let stage = self.elastic_at_stage(start, u, internal);
-        let stored = |u: &[f64]| solver.strain_energy(model, u);
-        dot(&du, &stage) - (stored(u) - stored(&frame.state.u))
-    }
-
     /// The forces where the increment is expected to end.
     fn guess(
         &self,
@@ -375,8 +421,13 @@ impl Implicit {
         u: Vec<f64>,
         external: &[f64],
     ) -> Guess {
-        let internal = start.solver.elastic(start.model, &u);
-        let stage = self.elastic_at_stage(start, &u, &internal);
+        let bodies = &start.solver.bodies;
+        let internal = bodies.forces(&u);
+        let end = Deformed {
+            u: &u,
+            forces: &internal,
+        };
+        let stage = bodies.stage_forces(self.alphas.alpha_f, [start.deformed(), end]);
         let (mut forces, scale) = self.balance(start, scheme, &u, &stage, external);
         let weight = scheme.weights[1];
         forces.iter_mut().for_each(|f| *f /= weight);
@@ -504,11 +555,7 @@ impl Implicit {
         internal: &[f64],
         external: &[f64],
     ) -> (Vec<f64>, f64) {
-        let IncrementStart {
-            model,
-            frame,
-            solver,
-        } = start;
+        let IncrementStart { frame, solver } = start;
         let IncrementScheme {
             increment,
             weights: [old, _],
@@ -520,7 +567,7 @@ impl Implicit {
         let inertia = in_motion(&solver.inertia);
         let from = increment.from;
         let (v, a) = increment.motion(u);
-        let mut a = mix(alpha_m, &from.a, &a);
+        let mut a = weighted_mean(alpha_m, &from.a, &a);
         for (a, _) in a.iter_mut().zip(&inertia.light).filter(|(_, l)| **l) {
             *a = 0.0;
         }
@@ -534,9 +581,9 @@ impl Implicit {
             spinning.lean(u, start.1.to_mut());
         }
         let (load, contact) = start;
-        let stage = mix(alpha_f, &from.u, u);
-        let damping = solver.damping_force(model, &stage, &mix(alpha_f, &from.v, &v));
-        let load = mix(alpha_f, &load, external);
+        let stage = weighted_mean(alpha_f, &from.u, u);
+        let damping = solver.damping_force(&stage, &weighted_mean(alpha_f, &from.v, &v));
+        let load = weighted_mean(alpha_f, &load, external);
         let forces = (0..u.len())
             .map(|i| inertial[i] + internal[i] + damping[i] - load[i] + old * contact[i])
             .collect();
@@ -566,11 +613,7 @@ impl Implicit {
         impulse: bool,
         solved: &Solved,
     ) -> Flow {
-        let IncrementStart {
-            model,
-            frame,
-            solver,
-        } = start;
+        let IncrementStart { frame, solver } = start;
         let IncrementScheme {
             increment,
             weights: [_, weight],
@@ -581,10 +624,10 @@ impl Implicit {
         let (from, to) = (&frame.state, &solved.state);
         let du = difference(&to.u, &from.u);
         let dv = difference(&to.v, &from.v);
-        let mean_v: Vec<f64> = mix(0.5, &from.v, &to.v);
-        let stage_a = mix(alphas.alpha_m, &increment.from.a, &to.a);
+        let mean_v: Vec<f64> = weighted_mean(0.5, &from.v, &to.v);
+        let stage_a = weighted_mean(alphas.alpha_m, &increment.from.a, &to.a);
         let half = 0.5 - alphas.alpha_f;
-        let mean_f = mix(0.5, &frame.load, &solved.external);
+        let mean_f = weighted_mean(0.5, &frame.load, &solved.external);
         let mut work = dot(&mean_f, &du);
         for (i, _) in fixed.iter().enumerate().filter(|(_, f)| **f) {
             work += solved.reactions[i] * du[i];
@@ -605,16 +648,10 @@ impl Implicit {
         let mut numerical =
             dot(&du, &inertial) - dot(&mean_v, &inertia.mass_times(&dv)) + solved.elastic + contact
                 - half * dot(&load, &du);
-        let mut damped = 0.0;
-        if !model.corotations.is_empty() {
-            // As it acts at the stage.
-            let stage = mix(alphas.alpha_f, &from.u, &to.u);
-            let v = mix(alphas.alpha_f, &from.v, &to.v);
-            damped = dot(&du, &solver.damping_force(model, &stage, &v));
-        } else if let Some(damping) = &inertia.damping {
-            damped = dot(&du, &times(damping, &mean_v));
-            numerical += half * dot(&dv, &times(damping, &du));
-        }
+        // As bodies lie at the stage.
+        let stage = weighted_mean(alphas.alpha_f, &from.u, &to.u);
+        let damped = dot(&du, &solver.damping_force(&stage, &mean_v));
+        numerical += half * dot(&dv, &solver.damping_force(&stage, &du));
         Flow {
             work,
             damped,
@@ -622,8 +659,4 @@ impl Implicit {
             ..Flow::default()
         }
     }
-}
-
-pub(crate) fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
-    a.iter().zip(b).map(|(a, b)| a - b).collect()
 }

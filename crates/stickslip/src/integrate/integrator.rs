@@ -1,5 +1,6 @@
 //! How increments are made: one attempt at one increment.
 
+use super::explicit::Explicit;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
@@ -9,7 +10,7 @@ use crate::system::StepFailure;
 use crate::time::Trial;
 
 /// Makes increments of one kind.
-pub(crate) trait Integrator {
+pub(crate) trait Integrator: Send + Sync {
     /// Tries one increment from the last accepted one. Nothing but caches, and what interfaces know of an attempt, is changed.
     fn attempt(
         &mut self,
@@ -25,6 +26,11 @@ pub(crate) trait Integrator {
 
     /// The longest increment that is stable now, with its safety; `None` where any is, or where increments are given.
     fn bound(&self, _model: &Model, _frame: &Frame, _contact: &Contact) -> Option<f64> {
+        None
+    }
+
+    /// What explicit increments need, if it makes these.
+    fn explicit(&self) -> Option<&Explicit> {
         None
     }
 }

@@ -39,7 +39,6 @@ pub(crate) mod exact;
 pub(crate) mod explicit;
 pub(crate) mod implicit;
 pub(crate) mod impulse;
-pub(crate) mod integration;
 pub(crate) mod integrator;
 pub(crate) mod onset;
 pub(crate) mod quasi_static;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::implicit::{BACKWARD, Implicit, difference};
+use super::implicit::{BACKWARD, Implicit};
 use super::integrator::Integrator;
 use super::sight::frames_here;
 use crate::body::couplings::{Couplings, MotionStart};
@@ -12,14 +12,14 @@ use crate::contact::interface::{
 };
 use crate::contact::look;
 use crate::error::Error;
-use crate::math::vector::dot;
+use crate::math::vector::{difference, dot};
 use crate::model::contact::Contact;
 use crate::model::definition::{ContactAt, Dynamic, Model};
 use crate::model::frame::{Frame, Motion};
 use crate::solve::inertia::Inertia;
 use crate::solve::inertia::in_motion;
 use crate::solve::solver::{Solver, entries};
-use crate::system::{IncrementalRotation, Links, Stage, State, StepFailure};
+use crate::system::{Deformed, IncrementalRotation, Links, Stage, State, StepFailure};
 use crate::time::Trial;
 use crate::time::scheme::Alphas;
 
@@ -126,11 +126,11 @@ impl Implicit {
         for ((u, to), _) in moved.zip(&inertia.light).filter(|(_, light)| **light) {
             *u = *to;
         }
-        let internal = solver.elastic(model, &frame.state.u);
-        let strain = match model.corotations.is_empty() {
-            true => 0.5 * dot(&frame.state.u, &internal),
-            false => solver.strain_energy(model, &frame.state.u),
-        };
+        let internal = solver.bodies.forces(&frame.state.u);
+        let strain = solver.bodies.energy(Deformed {
+            u: &frame.state.u,
+            forces: &internal,
+        });
         let energy = &mut frame.ledger;
         let strain = strain + energy.entered.thermal;
         energy.belt_work += strain - energy.strain;
@@ -241,7 +241,7 @@ fn start_motion(
     energy.kinetic = inertia.kinetic_energy(&frame.state.v);
     energy.initial += energy.kinetic - before;
     frame.motion = Motion {
-        internal: solver.elastic(model, &frame.state.u),
+        internal: solver.bodies.forces(&frame.state.u),
         start: frame.state.u.clone(),
         travel: 0.0,
     };
@@ -426,7 +426,7 @@ fn initial_acceleration(
 ) -> Result<(), StepFailure> {
     let inertia = in_motion(&solver.inertia);
     let internal = &frame.motion.internal;
-    let damping = solver.damping_force(model, &frame.state.u, &frame.state.v);
+    let damping = solver.damping_force(&frame.state.u, &frame.state.v);
     let mut force: Vec<f64> = (0..internal.len())
         .map(|i| frame.load[i] - internal[i] - damping[i] - frame.contact[i])
         .collect();

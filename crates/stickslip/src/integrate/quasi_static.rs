@@ -63,7 +63,7 @@ impl Integrator for QuasiStatic {
                 transmitted: frame.transmitted(model, &at.u, &converged.forces, &external),
                 ..Flow::default()
             },
-            strain: solver.strain_energy(model, &at.u),
+            strain: solver.strain_energy(&at.u),
             forces: converged.forces.clone(),
             contact: converged.contact.clone(),
             external,

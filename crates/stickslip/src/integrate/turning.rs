@@ -4,9 +4,9 @@
 //! end, as the pass before has left it. The matrix, factored once for the whole analysis, is a good derivative there, but none of what bodies resist with: forces are found
 //! again where the increment has ended, and it is solved again from there until they balance.
 
-use super::implicit::difference;
 use super::quasi_static::{QuasiStatic, pairs};
 use super::sight::{Ended, InertialFrame, in_space};
+use crate::math::vector::difference;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
@@ -15,7 +15,7 @@ use crate::solve::accepted::Accepted;
 use crate::solve::checks::check_change;
 use crate::solve::iteration::{Load, Task};
 use crate::solve::solver::Solver;
-use crate::system::{State, StepFailure};
+use crate::system::{Deformed, State, StepFailure};
 use crate::time::Trial;
 
 impl QuasiStatic {
@@ -67,7 +67,7 @@ fn pass(
     (contact.couplings).fit(&solver.diagonal, &fixed, &model.links);
     let mut external = Vec::new();
     sight.load(model, &u, trial.to, &mut external);
-    let missed = difference(&solver.elastic(model, &u), &solver.stiffness.times(&u));
+    let missed = difference(&solver.bodies.forces(&u), &solver.stiffness.times(&u));
     let mut at = State {
         t: trial.to,
         u,
@@ -84,7 +84,7 @@ fn pass(
     let converged = solver.solve_sparse(model, contact, task, &mut at)?;
     external.clear();
     sight.load(model, &at.u, trial.to, &mut external);
-    let internal = solver.elastic(model, &at.u);
+    let internal = solver.bodies.forces(&at.u);
     let size = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
     let left = difference(&internal, &external);
     let end = Ended {
@@ -99,7 +99,10 @@ fn pass(
             work: inside.work(&fixed, &at.u, &forces, &external),
             ..Flow::default()
         },
-        strain: solver.strain_energy(model, &at.u),
+        strain: solver.bodies.energy(Deformed {
+            u: &at.u,
+            forces: &internal,
+        }),
         forces,
         contact: found.contact.clone(),
         external,

@@ -14,7 +14,7 @@ use crate::time::Trial;
 
 /// The next increment to attempt, no longer than the integrator allows; `None` at the end of the step.
 pub(super) fn propose(run: &Run, running: &mut Increments) -> Option<Trial> {
-    let integrator = run.integration.as_dyn();
+    let integrator = &run.integrator;
     match integrator.bound(&run.model, &run.frame, &run.contact) {
         Some(bound) if running.attempt == 1 && !running.tight => running.stepper.bound(bound),
         Some(bound) if running.attempt == 1 => running.stepper.bound_again(bound),
@@ -63,7 +63,7 @@ pub(super) fn attempt(
 ) -> Result<Result<Accepted, StepFailure>, Error> {
     run.solver.seen.clear();
     let (contact, solver) = (&mut run.contact, &mut run.solver);
-    let integrator = run.integration.as_dyn_mut();
+    let integrator = &mut run.integrator;
     let outcome = integrator.attempt(&run.model, &run.frame, contact, solver, trial);
     // Of increments that wait for their interiors it is told with them.
     if run.solver.condenser.at_rest().is_none() {

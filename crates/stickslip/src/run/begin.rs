@@ -11,7 +11,6 @@ use crate::contact::interface::mass_per_area;
 use crate::error::Error;
 use crate::integrate::explicit::Explicit;
 use crate::integrate::implicit::Implicit;
-use crate::integrate::integration::Integration;
 use crate::integrate::quasi_static::QuasiStatic;
 use crate::modal::linear::fault;
 use crate::model::capability::Feature;
@@ -62,20 +61,20 @@ pub(super) fn begin_step(run: &mut Run, step: usize) -> Result<(), Error> {
     solver.floating.forget_all();
     let contacts = Arc::make_mut(&mut frame.contacts);
     contact.use_springs(contacts, false, |energy| frame.ledger.initial += energy);
-    run.integration = match dynamic.method {
+    run.integrator = match dynamic.method {
         Method::Implicit(alphas) => {
             // What is tried for the forces at the start is no increment that could be tried again.
             let interrupt = solver.newton.interrupt.take();
             let begun = Implicit::begin(model, frame, contact, solver, dynamic, alphas);
             solver.newton.interrupt = interrupt;
-            Integration::Implicit(begun?)
+            Box::new(begun?)
         }
         Method::Explicit { .. } => {
             solver.include_all(model, contact);
             let explicit = Explicit::begin(model, frame, contact, &solver.conditions, &dynamic)?;
             summary.explicit.mass_added = explicit.begun.mass_added;
             summary.explicit.stable_increment = explicit.begun.stable;
-            Integration::Explicit(Box::new(explicit))
+            Box::new(explicit)
         }
     };
     Ok(())
@@ -102,7 +101,7 @@ fn begin_static(run: &mut Run) -> Result<(), Error> {
     }
     let contacts = Arc::make_mut(&mut frame.contacts);
     contact.use_springs(contacts, false, |energy| frame.ledger.initial += energy);
-    run.integration = Integration::QuasiStatic(QuasiStatic);
+    run.integrator = Box::new(QuasiStatic);
     solver.find_floating_bodies(model, frame, contact);
     if let Some((finding, error)) = view!(run).refuse_rigid_modes() {
         doctor::note(&mut run.summary.findings, finding);

@@ -68,7 +68,7 @@ pub(super) fn check_energy_balance(
     }
     running.tight = accepted.hard;
     run.frame.contacts = Arc::new(after);
-    run.integration.as_dyn_mut().accept();
+    run.integrator.accept();
     Ok(accepted)
 }
 
@@ -91,7 +91,7 @@ fn resolves(run: &Run, trial: Trial, after: &ContactMemory) -> bool {
 /// What a push on a point of the mesh moves `[1/kg]`, zero where that has no inertia of its own.
 fn inverse_masses(run: &Run) -> Vec<f64> {
     let inverse = |m: f64| if m > 0.0 { 1.0 / m } else { 0.0 };
-    match (run.integration.explicit(), &run.solver.inertia) {
+    match (run.integrator.explicit(), &run.solver.inertia) {
         (Some(explicit), _) => {
             let points = 0..run.model.mesh.points.len();
             points

@@ -28,3 +28,6 @@ pub use checkpoint::Checkpoint;
 pub use parts::Run;
 pub use simulation::{Interrupt, Simulation};
 pub use sizes::Sizes;
+
+#[cfg(test)]
+mod seam_tests;

@@ -13,7 +13,7 @@ use crate::assess::view::View;
 use crate::body::Around;
 use crate::contact::look;
 use crate::error::Error;
-use crate::integrate::integration::Integration;
+use crate::integrate::integrator::Integrator;
 use crate::integrate::quasi_static::QuasiStatic;
 use crate::modal::ModalOutcome;
 use crate::model::Setup;
@@ -59,7 +59,7 @@ pub struct Run {
     /// What steps without increments have found, in this process.
     pub modes: Vec<ModalOutcome>,
     pub(super) solver: Solver,
-    pub(super) integration: Integration,
+    pub(super) integrator: Box<dyn Integrator>,
     pub(super) steps: Steps,
     /// Accepted increments whose interiors are not known yet.
     pub(super) pending: Vec<Pending>,
@@ -83,7 +83,7 @@ macro_rules! view {
                 frame: &$run.frame,
             },
             solver: &$run.solver,
-            explicit: $run.integration.explicit(),
+            explicit: $run.integrator.explicit(),
         }
     };
 }
@@ -128,7 +128,7 @@ impl Run {
                 watched: fatigue::watched(&model, &contact),
                 watches: vec![Watch::default(); contact.interfaces.len()],
             },
-            integration: Integration::QuasiStatic(QuasiStatic),
+            integrator: Box::new(QuasiStatic),
             steps: Steps::default(),
             modes: Vec::new(),
             pending: Vec::new(),
@@ -262,7 +262,7 @@ fn start(model: &Model, contact: &mut Contact, solver: &Solver) -> Frame {
     };
     let contacts = contact.begin(&beginning(&state, &soon(model, &state)));
     let coupled = contact.couplings.view(&contacts.couplings).stored();
-    let strain = solver.strain_energy(model, &state.u) + coupled;
+    let strain = solver.strain_energy(&state.u) + coupled;
     let mut frame = Frame {
         state,
         contacts: Arc::new(contacts),

@@ -9,7 +9,7 @@ use crate::contact::interface::{History, memory, remember};
 use crate::error::{Error, RunError};
 use crate::integrate::explicit::{Explicit, ExplicitState};
 use crate::integrate::implicit::Implicit;
-use crate::integrate::integration::Integration;
+use crate::integrate::integrator::Integrator;
 use crate::integrate::quasi_static::QuasiStatic;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
@@ -42,7 +42,7 @@ pub(super) fn attempt_state(run: &Run) -> AttemptState {
             .map(|(i, conditions)| memory(i, conditions))
             .collect(),
         couplings: run.contact.couplings.state(),
-        explicit: run.integration.explicit().map(Explicit::state),
+        explicit: run.integrator.explicit().map(Explicit::state),
         solver: run.solver.state(),
     }
 }
@@ -96,7 +96,7 @@ pub(super) fn go_back_to(run: &mut Run, checkpoint: Checkpoint) -> Result<(), Er
     let again = (run.solver).go_on_from(working.solver, model, &frame, contact);
     again.map_err(|e| e.at(t))?;
     run.solver.condenser.go_ahead(ahead);
-    run.integration = integration(&run.model, frame.step, working.explicit);
+    run.integrator = integrator(&run.model, frame.step, working.explicit);
     run.steps = Steps {
         begun: true,
         over: position.over,
@@ -114,16 +114,14 @@ pub(super) fn go_back_to(run: &mut Run, checkpoint: Checkpoint) -> Result<(), Er
 }
 
 /// The integrator of a step that has begun.
-fn integration(model: &Model, step: usize, explicit: Option<ExplicitState>) -> Integration {
-    match (model.steps[step].dynamic, explicit) {
-        (Some(dynamic), explicit) => match (dynamic.method, explicit) {
-            (Method::Implicit(alphas), _) => Integration::Implicit(Implicit { dynamic, alphas }),
-            (method, Some(state)) => {
-                Integration::Explicit(Box::new(Explicit::again(model, method, state)))
-            }
-            (method, None) => Integration::Explicit(Box::new(Explicit::new(model, method))),
-        },
-        (None, _) => Integration::QuasiStatic(QuasiStatic),
+fn integrator(model: &Model, step: usize, explicit: Option<ExplicitState>) -> Box<dyn Integrator> {
+    let Some(dynamic) = model.steps[step].dynamic else {
+        return Box::new(QuasiStatic);
+    };
+    match (dynamic.method, explicit) {
+        (Method::Implicit(alphas), _) => Box::new(Implicit { dynamic, alphas }),
+        (method, Some(state)) => Box::new(Explicit::again(model, method, state)),
+        (method, None) => Box::new(Explicit::new(model, method)),
     }
 }
 

@@ -237,7 +237,7 @@ impl Simulation {
         prepare(run, trial, running.attempt, observers)?;
         let counters = doctor::Counters::of(&run.solver.newton.statistics);
         let stoppable = run.solver.newton.interrupt.is_some();
-        let solves = run.integration.explicit().is_none();
+        let solves = run.integrator.explicit().is_none();
         self.before = (stoppable && solves).then(|| attempt_state(run));
         let outcome = attempt(run, trial, observers)?;
         if matches!(&outcome, Err(e) if e.cause == Cause::Interrupted) {

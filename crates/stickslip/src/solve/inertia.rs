@@ -310,15 +310,6 @@ impl Inertia {
         out
     }
 
-    /// `C v`.
-    pub fn damping_force(&self, v: &[f64]) -> Vec<f64> {
-        let mut out = vec![0.0; v.len()];
-        if let Some(damping) = &self.damping {
-            damping.mul(v, &mut out);
-        }
-        out
-    }
-
     /// `vᵀ M v / 2`.
     pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
         0.5 * dot(v, &self.mass_times(v))

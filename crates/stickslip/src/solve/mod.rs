@@ -18,23 +18,22 @@
 //! - *Release* (`released.rs`). Where the load of a body goes, every place without contact is one of equilibrium, and Newton's method would end in one
 //!   by chance: the body is anchored beforehand, and stays where it was.
 //! - *Bounds*. In an increment a loose body goes no further than ten times the gaps there are, what is prescribed and what it is strained, and one cell; beyond
-//!   that it was thrown, and the increment is cut. What not even contact could hold (`model/unheld.rs`) is refused when a step begins, with what drives it
-//!   (`model/drivers.rs`).
+//!   that it was thrown, and the increment is cut. What not even contact could hold (`model/rigid/held.rs`) is refused when a step begins, with what drives it
+//!   (`model/rigid/drivers.rs`).
 
 pub(crate) mod accepted;
 mod by_cells;
 mod carried;
-mod cell_by_cell;
 pub(crate) mod checks;
 pub(crate) mod choice;
 mod closure;
 mod condensed;
 pub(crate) mod condenser;
-pub(crate) mod elastic;
 pub(crate) mod floating_bodies;
 mod follow;
 pub(crate) mod inertia;
 pub(crate) mod iteration;
+mod pressed;
 mod released;
 mod rigid_part;
 pub(crate) mod solver;

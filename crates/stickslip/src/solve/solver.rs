@@ -1,15 +1,16 @@
 //! The solver: matrix, factors and Newton's method, and the way in which increments are solved.
 
-use super::inertia::in_motion;
+use super::inertia::{in_motion, times};
 use super::iteration::{Iteration, Load, Task};
 use std::sync::Arc;
 
 use super::by_cells::{ByCells, linear_part, stiff, suffices};
-use super::cell_by_cell::{Cells, Pressed};
 use super::condenser::Condenser;
 use super::floating_bodies::Floating;
 use super::inertia::Inertia;
+use super::pressed::Pressed;
 use super::work::Seen;
+use crate::body::model::{BodiesByCell, CorotatedBodies, LinearBodies};
 use crate::contact::interface::Conditions;
 use crate::linear::{BlockCsr, Digest, Engine, Matrix};
 use crate::model::contact::Contact;
@@ -17,7 +18,7 @@ use crate::model::definition::{Model, Solution};
 use crate::model::frame::{ContactMemory, Frame};
 use crate::newton::condensed::{Identity, Library};
 use crate::newton::{Converged, Factors, Newton, NonlinearBulk, SparseBulk};
-use crate::system::{State, StepFailure};
+use crate::system::{BodyModel, Deformed, State, StepFailure};
 
 /// What solves increments: nothing in it is part of a result, and all of it can be made again.
 pub(crate) struct Solver {
@@ -25,8 +26,8 @@ pub(crate) struct Solver {
     pub stiffness: Arc<dyn Matrix>,
     /// Its diagonal.
     pub diagonal: Vec<f64>,
-    /// What of it is linear, where bodies turn cell by cell.
-    pub linear: Option<BlockCsr>,
+    /// The forces of bodies and springs.
+    pub bodies: Arc<dyn BodyModel>,
     /// Newton's method, with its counts.
     pub newton: Newton,
     /// How systems are solved; `Automatic` until it is known.
@@ -76,7 +77,7 @@ impl Solver {
         };
         Solver {
             diagonal: stiffness.diagonal(),
-            linear: (model.is_corotational()).then(|| linear_part(model, entries(&stiffness))),
+            bodies: body_model(model, &stiffness),
             stiffness,
             newton: Newton::new(model.solution.settings),
             method: match (
@@ -115,9 +116,24 @@ impl Solver {
     }
 
     /// Makes the entries of the stiffness if they are not kept: somebody will ask for them.
-    pub fn keep_stiffness(&mut self) {
+    pub fn keep_stiffness(&mut self, model: &Model) {
         if self.stiffness.kept().is_err() {
             self.stiffness = Arc::new(self.stiffness.make());
+            self.bodies = body_model(model, &self.stiffness);
+        }
+    }
+
+    /// Strain energy of bodies and springs `[J]`.
+    pub fn strain_energy(&self, u: &[f64]) -> f64 {
+        let forces = &self.bodies.forces(u);
+        self.bodies.energy(Deformed { u, forces })
+    }
+
+    /// Forces of Rayleigh damping at displacements and velocities, in motion `[N]`.
+    pub fn damping_force(&self, u: &[f64], v: &[f64]) -> Vec<f64> {
+        match &in_motion(&self.inertia).damping {
+            Some(damping) => self.bodies.damping(&|v| times(damping, v), u, v),
+            None => vec![0.0; v.len()],
         }
     }
 
@@ -129,7 +145,7 @@ impl Solver {
         task: Task,
         at: &mut State,
     ) -> Result<Converged, StepFailure> {
-        self.keep_stiffness();
+        self.keep_stiffness(model);
         let fixed = task.constraints.fixed.clone();
         let (matrix, diagonal, key, external, origin) = match task.load {
             Load::External(external) => {
@@ -147,8 +163,8 @@ impl Solver {
             None => self.floating.with(forces.all()),
             Some(_) => forces.all(),
         };
-        if let (Some(linear), None) = (&self.linear, &origin) {
-            let pressed = Pressed::new(Cells { model, linear }, at.t, &task.from.u);
+        if let (Some(bodies), None) = (self.bodies.nonlinear(), &origin) {
+            let pressed = Pressed::new(model, bodies, at.t, &task.from.u);
             let linearised = self.factors.of(CELLS);
             return Iteration {
                 newton: &mut self.newton,
@@ -178,6 +194,25 @@ impl Solver {
             frames: task.frames,
         }
         .solve(task.constraints, task.from, at)
+    }
+}
+
+/// Bodies and springs by the formulation that the model asks for.
+fn body_model(model: &Model, stiffness: &Arc<dyn Matrix>) -> Arc<dyn BodyModel> {
+    if model.is_corotational() {
+        let bodies = model.elastic().map(|b| &b.elastic);
+        return Arc::new(BodiesByCell {
+            linear: linear_part(model, entries(stiffness)),
+            turning: bodies.filter(|e| e.is_corotational()).cloned().collect(),
+        });
+    }
+    let stiffness = Arc::clone(stiffness);
+    match model.corotations.is_empty() {
+        true => Arc::new(LinearBodies { stiffness }),
+        false => Arc::new(CorotatedBodies {
+            stiffness,
+            frames: Arc::clone(&model.corotations),
+        }),
     }
 }
 

@@ -134,7 +134,7 @@ impl Solver {
     ) -> Result<(), StepFailure> {
         let recipe = state.inertia;
         if recipe.is_some() || state.method != Solution::Condensed {
-            self.keep_stiffness();
+            self.keep_stiffness(model);
         }
         let again = |r| Inertia::again(model, contact, entries(&self.stiffness), r);
         self.inertia = recipe.map(again);
