@@ -157,7 +157,7 @@ fn interface(
             points,
             alike: Vec::new(),
             mortar: None,
-            hollows: Default::default(),
+            opposite_wear: Default::default(),
             walls: Default::default(),
             clamped: Vec::new(),
             primary: Primary::Facets(facets),

@@ -175,7 +175,7 @@ pub fn turns(facets: &[&Facet], x: &[Vec3]) -> Vec<[f64; 2]> {
 
 /// By facet, how far a smooth surface through the nodes stands off it at most on its outer side, because the surface is hollow there `[m]`: an eighth of the angle to the facets beside
 /// it times the distance to them, along both directions of a facet in space. Zero where the surface is flat or bulges, and of quadratic facets, which follow it.
-pub fn hollows(facets: &[&Facet], x: &[Vec3]) -> Vec<f64> {
+pub fn concave_offsets(facets: &[&Facet], x: &[Vec3]) -> Vec<f64> {
     let mut sides: BTreeMap<Vec<usize>, Vec<usize>> = BTreeMap::new();
     for (f, facet) in facets.iter().enumerate() {
         for edge in edges(facet.kind) {
@@ -200,9 +200,9 @@ pub fn hollows(facets: &[&Facet], x: &[Vec3]) -> Vec<f64> {
         }
         let way = sub(q.x, p.x);
         // Normals that come towards each other are those of a hollow.
-        let wear_gap = -dot(sub(q.normal, p.normal), way).signum() * turned * distance(p.x, q.x);
+        let depth = -dot(sub(q.normal, p.normal), way).signum() * turned * distance(p.x, q.x);
         for f in [a, b] {
-            sums[f].0 += wear_gap;
+            sums[f].0 += depth;
             sums[f].1 += 1.0;
         }
     }

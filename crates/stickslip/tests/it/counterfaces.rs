@@ -39,8 +39,8 @@ fn track(simulation: &Simulation) -> Vec<([f64; 3], f64)> {
 fn volumes(simulation: &Simulation, what: &str) -> f64 {
     let interface = support::contact(simulation);
     let lost = look::wear(interface).expect("it is followed").volume;
-    for (lost, hollowed) in lost.iter().zip(look::hollowed(interface)) {
-        close(hollowed, *lost, 1e-12, what);
+    for (lost, worn_volume) in lost.iter().zip(look::worn_volume(interface)) {
+        close(worn_volume, *lost, 1e-12, what);
     }
     close(lost[1], TRACK / PIN * lost[0], 1e-12, what);
     lost[0] + lost[1]

@@ -451,10 +451,10 @@ fn what_both_surfaces_lose_is_what_the_law_says() {
         let what = format!("{dim}D {elements:?} {more}");
         let interface = support::contact(&simulation);
         let lost = look::wear(interface).expect("is followed").volume;
-        for (lost, hollowed) in lost.iter().zip(look::hollowed(interface)) {
+        for (lost, worn_volume) in lost.iter().zip(look::worn_volume(interface)) {
             assert!(
-                (hollowed / lost - 1.0).abs() < 1e-12,
-                "{what}: {hollowed} {lost}"
+                (worn_volume / lost - 1.0).abs() < 1e-12,
+                "{what}: {worn_volume} {lost}"
             );
         }
         assert!((lost[0] / lost[1] - 2.0).abs() < 1e-12, "{what}: {lost:?}");

@@ -297,8 +297,8 @@ fn both_surfaces_wear_in_motion_as_they_do_at_rest() {
             let simulation = driven(dynamic, feedback);
             let interface = support::contact(&simulation);
             let lost = look::wear(interface).expect("is followed").volume;
-            for (lost, hollowed) in lost.iter().zip(look::hollowed(interface)) {
-                close(hollowed, *lost, 1e-12, &what);
+            for (lost, worn_volume) in lost.iter().zip(look::worn_volume(interface)) {
+                close(worn_volume, *lost, 1e-12, &what);
             }
             close(lost[0] / lost[1], 2.0, 1e-12, &what);
             close(volume(&simulation), at_rest, tolerance, &what);

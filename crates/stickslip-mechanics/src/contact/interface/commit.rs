@@ -11,13 +11,12 @@ use super::evaluation::{Evaluation, Evaluations};
 use super::faces::integrate_accepted;
 use super::history::{History, PointHistory};
 use super::input::InterfaceInput;
-use super::on_ground::wear_ground;
 use super::parts::InterfaceForce;
 use super::pass::evaluate_all;
 use super::scene::Wants;
 use super::sides::{leave_traces, opposite};
 use super::view::ContactView;
-use super::worn::{add_nodal_wear, path, sliding_distance, wear_increment};
+use super::wear::{add_nodal_wear, path, sliding_distance, wear_increment, wear_track};
 use crate::contact::enforcement::Multipliers;
 use crate::contact::law::friction::LawState;
 use crate::contact::response::Status;
@@ -35,8 +34,9 @@ struct Passed {
     uncertain: f64,
     /// See [`Energy::excess`](crate::system::Energy::excess) `[J/m²]`.
     excess: f64,
-    /// Depth worn off the side with the points and the other `[m]`.
+    /// Depth worn off the side with the points and the other `[m]`, and the part of its area that the point covers.
     worn: [f64; 2],
+    covered: f64,
     /// Work on the bodies by the trapezoidal rule, but for damping `[J/m²]`.
     work: f64,
 }
@@ -71,10 +71,9 @@ pub fn commit(interface: &mut InterfaceForce, stage: &Stage) -> History {
         springs: state.springs,
         rest: Arc::clone(&state.rest),
         energy: state.energy,
-        worn: state.worn,
+        worn: state.worn.clone(),
         nodal,
-        traces: state.traces.clone(),
-        ground: state.ground.clone(),
+        dissipated: state.dissipated.clone(),
         pushed: state.pushed,
         creep: state.creep,
         cone,
@@ -119,7 +118,7 @@ pub fn commit(interface: &mut InterfaceForce, stage: &Stage) -> History {
     next.energy.dissipated += dissipated;
     leave_traces(input.definition, last, &traces, &mut next);
     add_nodal_wear(input.definition, last, &volumes, &mut next);
-    wear_ground(input, last, &volumes, stage, &mut next);
+    wear_track(input, last, &volumes, stage, &mut next);
     let stored = stored_energy(ContactView {
         definition: input.definition,
         state: &next,
@@ -165,6 +164,7 @@ fn law_states(input: InterfaceInput, last: &Evaluations, dt: f64) -> Vec<LawStat
 /// the wear, work, path and law states per area of these.
 fn share_accumulated(definition: &InterfaceDefinition, last: &Evaluations, next: &mut History) {
     let (points, states) = (&mut next.points, &mut next.law_states);
+    let worn = &mut next.worn;
     for (i, earlier) in definition.alike.iter().enumerate() {
         for &j in earlier {
             let (carries, other) = match [i, j].map(|k| last.points[k].facet.is_some()) {
@@ -173,6 +173,7 @@ fn share_accumulated(definition: &InterfaceDefinition, last: &Evaluations, next:
                 _ => continue,
             };
             points[other] = points[carries].accumulated_into(&points[other]);
+            worn.copy(carries, other);
             if !states.is_empty() {
                 states[other] = states[carries];
             }
@@ -188,9 +189,10 @@ fn share_accumulated(definition: &InterfaceDefinition, last: &Evaluations, next:
         if !states.is_empty() {
             states[point] = std::array::from_fn(|s| mean_of(&|k| states[k][s]));
         }
+        let depth = mean_of(&|k| worn.own_depth(k));
+        worn.set_own_depth(point, depth);
         let mean = |of: fn(&PointHistory) -> f64| mean_of(&|k| of(&points[k]));
         points[point] = PointHistory {
-            worn: mean(|h| h.worn),
             dissipated: mean(|h| h.dissipated),
             path: mean(|h| h.path),
             spent: mean(|h| h.spent),
@@ -214,8 +216,6 @@ impl PointHistory {
         PointHistory {
             slip: self.slip,
             dissipated: self.dissipated,
-            worn: self.worn,
-            wear_gap: self.wear_gap,
             path: self.path,
             spent: self.spent,
             ..PointHistory::default()
@@ -244,7 +244,7 @@ fn take_over(
     // Overlap that is resolved drives the surfaces apart.
     let [before, now] = increment.times.map(|t| input.offset_at_start(i, t));
     // So does what is worn off, the other way: the bodies come together as it goes.
-    let [before, now] = [before - h.wear_gap, now - passed.history.wear_gap];
+    let [before, now] = [before - input.state.worn.opened(i), now - e.wear_gap];
     belt_work += 0.5 * (h.pressure + r.traction[0]) * (now - before) * area;
     belt_work += pressed_out(input, i, e) * area;
     let mut damped = 0.0;
@@ -264,7 +264,11 @@ fn take_over(
     };
     next.energy.uncertain += passed.uncertain * area;
     next.energy.excess += passed.excess * area;
-    for (total, depth) in next.worn.iter_mut().zip(passed.worn) {
+    if input.wears() {
+        next.worn
+            .deepen(i, passed.worn[0] * passed.covered, e.wear_gap);
+    }
+    for (total, depth) in next.worn.volume.iter_mut().zip(passed.worn) {
         *total += depth * area;
     }
     next.energy.work += belt_work;
@@ -344,6 +348,7 @@ fn pass(
         uncertain,
         excess,
         worn,
+        covered,
         work: 0.5 * (pressures * opened + dot(both, e.moved)),
         history: PointHistory {
             pressure: r.traction[0],
@@ -357,8 +362,6 @@ fn pass(
             area: e.area,
             damping: r.damping,
             dissipated: h.dissipated + dissipated,
-            worn: h.worn + worn[0] * covered,
-            wear_gap: e.wear_gap,
             path: h.path + interface.conditions.cycles() * path,
             spent: h.spent + interface.conditions.cycles() * dissipated,
             limit,

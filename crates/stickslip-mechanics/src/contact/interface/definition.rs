@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::history::History;
-use super::hollows::NodalWear;
 use super::initial::Initial;
+use super::wear::OppositeWear;
 use crate::contact::kinematics::KinematicsModel;
 use crate::contact::law::friction::LawState;
 use crate::contact::mortar::Mortar;
@@ -54,7 +54,7 @@ pub struct InterfaceMesh {
     /// What they touch.
     pub primary: Primary,
     /// How what is worn off the primary is divided among its nodes; empty where nothing wears.
-    pub hollows: NodalWear,
+    pub opposite_wear: OppositeWear,
     /// The axes along which each node is prescribed in all steps, or follows what is; over an obstacle those alone along which it follows: a support leaves no multiplier there.
     /// Empty where nobody has looked.
     pub clamped: Vec<[bool; 3]>,

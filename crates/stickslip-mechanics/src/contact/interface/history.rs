@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::ground::Depths;
+use super::wear::WornSurfaces;
 use crate::contact::law::friction::{FrictionLaw, LawState};
 use crate::contact::response::Status;
 use crate::math::Vec3;
@@ -27,14 +27,12 @@ pub struct History {
     pub(in crate::contact) rest: Arc<Vec<f64>>,
     /// Energies, of which all but the stored one add up over increments.
     pub(in crate::contact) energy: Energy,
-    /// Volume that the side with the points and the other have lost `[m³]`.
-    pub(in crate::contact) worn: [f64; 2],
+    /// What sliding has worn off both surfaces.
+    pub(in crate::contact) worn: WornSurfaces,
     /// Forces on the nodes `[N]`; empty before there was an accepted state.
     pub(in crate::contact) nodal: Vec<Vec3>,
-    /// Dissipated energy per area and worn depth at the nodes of the primary, by node; empty before anything slid.
-    pub(in crate::contact) traces: Vec<[f64; 2]>,
-    /// Depths that are not kept at nodes.
-    pub(in crate::contact) ground: Depths,
+    /// Energy dissipated per area at the nodes of the primary, by node `[J/m²]`; empty before anything slid.
+    pub(in crate::contact) dissipated: Vec<f64>,
     /// Force, and moment about the centre of rotation, with which a moving obstacle pushed.
     pub(in crate::contact) pushed: [Vec3; 2],
     /// Largest velocity of slip below the limit over the last increment `[m/s]`.
@@ -63,10 +61,6 @@ pub(in crate::contact) struct PointHistory {
     pub damping: f64,
     /// Energy that friction has dissipated here `[J/m²]`.
     pub dissipated: f64,
-    /// Depth worn off the side with the points `[m]`.
-    pub worn: f64,
-    /// By how much that of both sides opened the gap `[m]`.
-    pub wear_gap: f64,
     /// Path over which it has worn, cycles that were not computed included `[m]`, and what friction dissipated on it `[J/m²]`.
     pub path: f64,
     pub spent: f64,
@@ -174,7 +168,8 @@ impl History {
             + size_of_val(self.opposite.ends.as_slice())
             + size_of_val(self.opposite.nodes.as_slice())
             + size_of_val(self.nodal.as_slice())
-            + size_of_val(self.traces.as_slice())
+            + size_of_val(self.dissipated.as_slice())
+            + self.worn.bytes()
             + size_of_val(self.rest.as_slice())
             + size_of_val(self.start.offset.as_slice())
             + size_of_val(self.start.glued.as_slice())
@@ -182,7 +177,7 @@ impl History {
 
     /// Memory that it will take `[bytes]`, of an interface with so many points that lie over so many nodes of the primary in all, and so many nodes.
     pub(in crate::contact) fn bytes(points: usize, opposite: usize, nodes: usize) -> usize {
-        let point = size_of::<PointHistory>() + size_of::<usize>() + 3 * size_of::<f64>();
+        let point = size_of::<PointHistory>() + size_of::<usize>() + 5 * size_of::<f64>();
         let node = size_of::<Vec3>() + size_of::<[f64; 2]>();
         points * point + opposite * size_of::<(usize, f64)>() + nodes * node
     }

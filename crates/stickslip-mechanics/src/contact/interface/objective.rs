@@ -9,7 +9,7 @@ use super::definition::{InterfaceDefinition, InterfaceMesh, Primary};
 use super::history::{History, PointHistory};
 use super::parts::Interface;
 use super::view::ContactView;
-use super::{Initial, NodalWear};
+use super::{Initial, OppositeWear};
 use crate::contact::enforcement::{EnforcementModel, Penalty};
 use crate::contact::kinematics::{KinematicsModel, Pop1995, SmallSliding};
 use crate::contact::law::friction::{Coulomb, FrictionModel};
@@ -196,7 +196,7 @@ fn drum(
         nodes,
     });
     let mortar = mortar.then(|| Mortar::new(faces.collect(), points.len()));
-    let hollows = NodalWear::new(&facets, &reference, |_| 1.0);
+    let opposite_wear = OppositeWear::new(&facets, &reference, |_| 1.0);
     let interface = Interface::new(InterfaceDefinition {
         name: "shoe".into(),
         mesh: Arc::new(InterfaceMesh {
@@ -214,7 +214,7 @@ fn drum(
             neighbours: Vec::new(),
             primary: Primary::Facets(facets),
             skin,
-            hollows,
+            opposite_wear,
             clamped: Vec::new(),
             walls: Default::default(),
             edge_tolerance: 1e-3,

@@ -6,7 +6,7 @@ use super::initial::TOUCHING;
 use super::input::InterfaceInput;
 use super::scene::{LawQuery, Met, Scene};
 use super::stiffness::{own_stiffness, spring, tangential_stiffness};
-use super::worn::{length, wear_compliance, wear_gap, wearing};
+use super::wear::{length, wear_compliance, wear_gap, wearing};
 use crate::contact::enforcement::Multipliers;
 use crate::contact::kinematics::{Moving, Stencil, carried_over, rate_slip};
 use crate::contact::law::friction::FrictionPoint;

@@ -69,11 +69,11 @@ pub(super) fn leave_traces(
             sums[node][1] += share;
         }
     }
-    let all = &mut next.traces;
-    all.resize(definition.nodes.len(), [0.0; 2]);
-    for (t, [dissipated, share]) in all.iter_mut().zip(sums) {
+    let all = &mut next.dissipated;
+    all.resize(definition.nodes.len(), 0.0);
+    for (total, [dissipated, share]) in all.iter_mut().zip(sums) {
         if share > 0.0 {
-            t[0] += dissipated / share;
+            *total += dissipated / share;
         }
     }
 }

@@ -97,7 +97,7 @@ pub(in crate::contact) fn sample(kind: ElementKind, kinematics: KinematicsModel)
             neighbours: Vec::new(),
             skin: Vec::new(),
             primary: Primary::Facets(facets),
-            hollows: Default::default(),
+            opposite_wear: Default::default(),
             walls: Default::default(),
             clamped: Vec::new(),
             edge_tolerance: 1e-3,
@@ -314,7 +314,7 @@ fn the_tangent_is_that_of_the_force() {
     }
 }
 
-/// Points in the hollows of a surface are as near to one facet as to the next: which of them they meet is a matter of geometry.
+/// Points in the opposite_wear of a surface are as near to one facet as to the next: which of them they meet is a matter of geometry.
 #[test]
 fn numbers_of_facets_make_no_difference() {
     for kind in [ElementKind::Tri3, ElementKind::Quad4] {

@@ -27,7 +27,7 @@ impl std::ops::Deref for ContactView<'_> {
 impl ContactView<'_> {
     /// What is subtracted from the gap of a point at time `t` `[m]`, with what was worn off at the last accepted state.
     pub(in crate::contact) fn offset(&self, i: usize, t: f64) -> f64 {
-        self.offset_at_start(i, t) - self.state.points.get(i).map_or(0.0, |h| h.wear_gap)
+        self.offset_at_start(i, t) - self.state.worn.opened(i)
     }
 
     /// The same without what is worn off.

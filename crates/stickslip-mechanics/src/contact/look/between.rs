@@ -15,7 +15,7 @@ use crate::contact::interface::initial::GLUE;
 use crate::contact::interface::view::ContactView;
 use crate::contact::projection::{Foot, facet_distance};
 use crate::contact::search::Tree;
-use crate::contact::surface::{Facet, Skin, hollows};
+use crate::contact::surface::{Facet, Skin, concave_offsets};
 use crate::math::{Vec3, add_scaled, distance, dot, norm, normalize, sub};
 use crate::shape::ElementKind;
 
@@ -372,9 +372,9 @@ fn compare(contact: ContactView, lowest: &[f64], x: &[Vec3], t: f64) -> Between 
         // A straight face of a hollow surface lies within what it wraps, as chords do in a circle. That is no contact unseen: the surface that it stands for
         // touches all along.
         let skin: Vec<&Facet> = contact.skin.iter().map(|s| &s.facet).collect();
-        let hollows = hollows(&skin, x);
+        let offsets = concave_offsets(&skin, x);
         for (f, deep) in entered {
-            let deep = (deep - hollows[f]).max(0.0);
+            let deep = (deep - offsets[f]).max(0.0);
             let height = cell_height(contact, &contact.skin[f]);
             out.penetration = out.penetration.max(deep);
             out.relative_to_size = out.relative_to_size.max(deep / height);

@@ -108,7 +108,7 @@ fn add_traces(contact: ContactView, out: &mut Fields) {
         for (node, w) in contact.own_weights(i) {
             let share = area * w.max(0.0);
             sums[node][0] += share * h.dissipated;
-            sums[node][1] += share * h.worn;
+            sums[node][1] += share * contact.state.worn.own_depth(i);
             sums[node][2] += share;
         }
     }
@@ -143,8 +143,10 @@ fn add_traces(contact: ContactView, out: &mut Fields) {
             }
         }
         for local in contact.primary_nodes() {
-            let trace = contact.state.traces.get(local).map_or(0.0, |t| t[k]);
-            field.values[contact.nodes[local]] = trace;
+            field.values[contact.nodes[local]] = match k {
+                0 => contact.state.dissipated.get(local).copied().unwrap_or(0.0),
+                _ => contact.state.worn.opposite_depth(local),
+            };
         }
     }
 }

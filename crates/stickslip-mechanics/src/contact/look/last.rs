@@ -6,7 +6,7 @@ use crate::contact::interface::{Conditions, History, Interface};
 use crate::contact::response::Status;
 use crate::system::Tally;
 
-use crate::contact::interface::worn::sliding_distance;
+use crate::contact::interface::wear::sliding_distance;
 
 /// How many points have another status in the present attempt than at the last accepted state.
 pub fn switched(interface: &Interface, state: &History) -> usize {

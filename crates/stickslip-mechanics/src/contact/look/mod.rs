@@ -15,7 +15,6 @@ mod pressing;
 mod quality;
 mod resolution;
 mod resultant;
-mod scar;
 mod sheet;
 mod snaps;
 mod spacing;
@@ -25,6 +24,7 @@ mod touching;
 mod turned;
 mod values;
 mod wear;
+mod wear_profile;
 
 pub use super::interface::energies::{energy, law_energy, stored_by_point};
 pub use super::interface::symptoms::evidence;
@@ -46,7 +46,6 @@ pub use resolution::{Resolution, resolution};
 pub use resultant::{
     Resultant, centre_and_normal, closed, committed_tally, resultant, sliding_area,
 };
-pub use scar::{WearProfile, explicit_limit, scar};
 pub use sheet::{Sheet, sheet};
 pub use snaps::snaps;
 pub use spacing::coarser;
@@ -54,4 +53,5 @@ pub use table::{initial_gaps, table};
 pub use tie_rows::tie_rows;
 pub use touching::{is_hard, rubs, touched};
 pub use turned::{false_shear, normals_turned};
-pub use wear::{hollowed, taken, wear, wear_places};
+pub use wear::{taken, wear, wear_places, worn_volume};
+pub use wear_profile::{WearProfile, explicit_limit, wear_profile};

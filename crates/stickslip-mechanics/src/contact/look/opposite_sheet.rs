@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::sheet::Sheet;
-use crate::contact::interface::ground::Ground;
+use crate::contact::interface::WearTrack;
 use crate::contact::interface::view::ContactView;
 use crate::contact::obstacle::Place;
 use crate::math::{Vec3, add, sub};
@@ -26,9 +26,9 @@ fn fields(all: Vec<(&str, usize, Vec<f64>)>) -> Fields {
 /// The surface opposite the contact points with U, CDISS and CWEAR, where something wears; of an obstacle, and of a primary whose matter goes by, the places that points have worn with CWEAR, in
 /// coordinates of the matter, where it was at first. `None` of an obstacle that does not wear. `u`: displacements.
 pub fn opposite_sheet(contact: ContactView, u: &[f64]) -> Option<Sheet> {
-    match &contact.hollows.ground {
+    match &contact.opposite_wear.track {
         _ if !contact.wears() => None,
-        Some(ground) => Some(ground_sheet(contact, ground)),
+        Some(track) => Some(track_sheet(contact, track)),
         None if contact.rigid() => None,
         None => Some(facet_sheet(contact, u)),
     }
@@ -40,10 +40,9 @@ fn facet_sheet(contact: ContactView, u: &[f64]) -> Sheet {
         *place = k;
     }
     let now = contact.coordinates(u);
-    let of = |k: usize| -> Vec<f64> {
-        let trace = |&n: &usize| contact.state.traces.get(n).map_or(0.0, |t| t[k]);
-        places.keys().map(trace).collect()
-    };
+    let state = contact.state;
+    let dissipated = |n: &usize| state.dissipated.get(*n).copied().unwrap_or(0.0);
+    let depth = |n: &usize| state.worn.opposite_depth(*n);
     let moved = places
         .keys()
         .flat_map(|&n| sub(now[n], contact.reference[n]));
@@ -62,21 +61,21 @@ fn facet_sheet(contact: ContactView, u: &[f64]) -> Sheet {
         cells: facets.map(|f| f.cell).collect(),
         fields: fields(vec![
             ("U", 3, moved.collect()),
-            ("CDISS", 1, of(0)),
-            ("CWEAR", 1, of(1)),
+            ("CDISS", 1, places.keys().map(dissipated).collect()),
+            ("CWEAR", 1, places.keys().map(depth).collect()),
         ]),
     }
 }
 
-fn ground_sheet(contact: ContactView, ground: &Ground) -> Sheet {
-    let places = &contact.state.ground.places;
+fn track_sheet(contact: ContactView, track: &WearTrack) -> Sheet {
+    let places = &contact.state.worn.track.places;
     let numbers: BTreeMap<Place, usize> = places.keys().copied().zip(0..).collect();
     let position = |[row, at]: Place| -> Vec3 {
-        add(ground.chart.position(row, f64::from(at)), contact.origin)
+        add(track.chart.position(row, f64::from(at)), contact.origin)
     };
     let known = |place: &Place| numbers.get(place).copied();
     let faces = places.keys().filter_map(|place| {
-        let beside: Vec<Place> = ground.chart.next(*place).map(|(next, _)| next).collect();
+        let beside: Vec<Place> = track.chart.next(*place).map(|(next, _)| next).collect();
         let first = beside.first()?;
         match (contact.dofs.dim, beside.get(1)) {
             (2, _) => Some((ElementKind::Line2, vec![known(place)?, known(first)?])),

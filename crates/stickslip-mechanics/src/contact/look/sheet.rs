@@ -198,7 +198,7 @@ fn shown(contact: ContactView, corner: &Corner) -> Shown {
         sum += w;
         shown.normal = add_scaled(shown.normal, w, values.normal);
         shown.dissipated += w * h.dissipated;
-        shown.worn += w * h.worn;
+        shown.worn += w * contact.state.worn.own_depth(i);
         for (total, value) in shown.law_state.iter_mut().zip(contact.state.law_state(i)) {
             *total += w * value;
         }

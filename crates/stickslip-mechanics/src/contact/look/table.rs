@@ -82,7 +82,7 @@ fn rows(contact: ContactView, u: &[f64]) -> Vec<Row> {
                 moved: sub(p.place(&now), x),
                 values: values(contact, i),
                 dissipated: h.dissipated,
-                worn: h.worn,
+                worn: contact.state.worn.own_depth(i),
             }
         })
         .collect()

@@ -11,28 +11,28 @@ pub struct WearReport {
     pub volume: [f64; 2],
 }
 
-/// What the ground has lost: its largest depth `[m]` and the volume that the depths make up `[m³]`; `None` where there is none.
-pub(super) fn ground_lost(contact: ContactView) -> Option<[f64; 2]> {
-    let ground = contact.hollows.ground.as_ref()?;
-    let places = contact.state.ground.places.iter();
+/// What the track has lost: its largest depth `[m]` and the volume that the depths make up `[m³]`; `None` where there is none.
+pub(super) fn track_lost(contact: ContactView) -> Option<[f64; 2]> {
+    let track = contact.opposite_wear.track.as_ref()?;
+    let places = contact.state.worn.track.places.iter();
     Some(
         places.fold([0.0, 0.0], |[deepest, volume], (place, depth)| {
-            let area = ground.chart.area(*place, ground.extent);
+            let area = track.chart.area(*place, track.extent);
             [f64::max(deepest, *depth), volume + depth * area]
         }),
     )
 }
 
-/// The steepest slope of the ground, and its largest depth times its curvature, as it was made.
-pub(super) fn ground_scar(contact: ContactView) -> [f64; 2] {
-    let Some(ground) = &contact.hollows.ground else {
+/// The steepest slope of the track, and its largest depth times its curvature, as it was made.
+pub(super) fn track_profile(contact: ContactView) -> [f64; 2] {
+    let Some(track) = &contact.opposite_wear.track else {
         return [0.0; 2];
     };
-    let places = &contact.state.ground.places;
+    let places = &contact.state.worn.track.places;
     let mut worst = [0.0_f64; 2];
     for (&place, depth) in places {
-        worst[1] = worst[1].max(depth * ground.chart.curvature());
-        for (next, way) in ground.chart.next(place) {
+        worst[1] = worst[1].max(depth * track.chart.curvature());
+        for (next, way) in track.chart.next(place) {
             let other = places.get(&next).filter(|_| way > 0.0);
             worst[0] = other.map_or(worst[0], |o| worst[0].max((depth - o).abs() / way));
         }
@@ -45,12 +45,12 @@ pub fn wear(contact: ContactView) -> Option<WearReport> {
     if !contact.laws.wear.as_dyn().active() {
         return None;
     }
-    let secondary = contact.state.points.iter().map(|h| h.worn);
-    let nodes = contact.state.traces.iter().map(|t| t[1]);
-    let ground = ground_lost(contact).map_or(0.0, |[deepest, _]| deepest);
+    let worn = &contact.state.worn;
+    let nodes = worn.opposite.iter().copied();
+    let track = track_lost(contact).map_or(0.0, |[deepest, _]| deepest);
     let mut report = WearReport {
-        depth: [secondary.fold(0.0, f64::max), nodes.fold(ground, f64::max)],
-        volume: contact.state.worn,
+        depth: [worn.deepest_own(), nodes.fold(track, f64::max)],
+        volume: worn.volume,
     };
     if contact.exchanged {
         report.depth.reverse();
@@ -60,14 +60,17 @@ pub fn wear(contact: ContactView) -> Option<WearReport> {
 }
 
 /// Volume that the depths of both sides make up, that with the points first `[m³]`: what the laws say has been lost, to rounding.
-pub fn hollowed(contact: ContactView) -> [f64; 2] {
-    let points = contact.state.points.iter().enumerate();
-    let own = points.map(|(i, h)| h.worn * contact.own_area(i)).sum();
-    if let Some([_, volume]) = ground_lost(contact) {
+pub fn worn_volume(contact: ContactView) -> [f64; 2] {
+    let worn = &contact.state.worn;
+    let points = 0..contact.points.len();
+    let own = points
+        .map(|i| worn.own_depth(i) * contact.own_area(i))
+        .sum();
+    if let Some([_, volume]) = track_lost(contact) {
         return [own, volume];
     }
-    let depths = contact.state.traces.iter().zip(&contact.hollows.area);
-    [own, depths.map(|(t, area)| t[1] * area).sum()]
+    let depths = worn.opposite.iter().zip(&contact.opposite_wear.area);
+    [own, depths.map(|(depth, area)| depth * area).sum()]
 }
 
 /// What sliding has taken so far, place by place: volumes of both sides where one of them wears `[m³]`, otherwise energies `[J]`.
@@ -78,11 +81,12 @@ pub fn taken(contact: ContactView) -> Vec<f64> {
             .map(|(i, h)| h.dissipated * contact.own_area(i))
             .collect();
     }
-    let own = points.map(|(i, h)| h.worn * contact.own_area(i));
-    let depths = contact.state.traces.iter().zip(&contact.hollows.area);
-    let nodes = depths.map(|(t, area)| t[1] * area);
+    let worn = &contact.state.worn;
+    let own = points.map(|(i, _)| worn.own_depth(i) * contact.own_area(i));
+    let depths = worn.opposite.iter().zip(&contact.opposite_wear.area);
+    let nodes = depths.map(|(depth, area)| depth * area);
     own.chain(nodes)
-        .chain(contact.state.ground.taken.iter().copied())
+        .chain(worn.track.taken.iter().copied())
         .collect()
 }
 
@@ -90,7 +94,8 @@ pub fn taken(contact: ContactView) -> Vec<f64> {
 pub fn wear_places(contact: ContactView) -> Vec<(bool, f64)> {
     let areas = || (0..contact.points.len()).map(|i| contact.own_area(i));
     let own = areas().map(|area| (false, area));
-    let nodes = contact.state.traces.iter().zip(&contact.hollows.area);
+    let worn = &contact.state.worn;
+    let nodes = worn.opposite.iter().zip(&contact.opposite_wear.area);
     let nodes = nodes.map(|(_, area)| (true, *area));
     own.chain(nodes)
         .chain(areas().map(|area| (true, area)))

@@ -177,15 +177,15 @@ fn turned(interface: &InterfaceDefinition, watch: &Watch) -> Option<Finding> {
 }
 
 fn deep(interface: ContactView) -> Option<Finding> {
-    let scar = look::scar(interface)?;
+    let profile = look::wear_profile(interface)?;
     let mut said = Vec::new();
-    if scar.slope > STEEP {
-        said.push(format!("has a slope of up to {:.2}", scar.slope));
+    if profile.slope > STEEP {
+        said.push(format!("has a slope of up to {:.2}", profile.slope));
     }
-    if scar.curved > DEEP {
+    if profile.curved > DEEP {
         said.push(format!(
             "is up to {:.3} of the radius of the surface deep",
-            scar.curved
+            profile.curved
         ));
     }
     if said.is_empty() {

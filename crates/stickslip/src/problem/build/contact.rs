@@ -12,7 +12,8 @@ use super::sets::Sets;
 use super::surfaces::{Numbering, Surfaces};
 use crate::contact::enforcement::Multipliers;
 use crate::contact::interface::{
-    Ground, Initial, InterfaceDefinition, InterfaceMesh, NodalWear, Primary, Start, TrackSampling,
+    Initial, InterfaceDefinition, InterfaceMesh, OppositeWear, Primary, Start, TrackSampling,
+    WearTrack,
 };
 use crate::contact::law::wear::{Feedback, WearRate};
 use crate::contact::look::neighbours;
@@ -252,25 +253,25 @@ impl Make<'_> {
         (points, mortar)
     }
 
-    /// How what is worn off the primary is kept, where something wears: at its nodes; of an obstacle, and where its matter goes by, on a ground.
-    fn hollows(
+    /// How what is worn off the primary is kept, where something wears: at its nodes; of an obstacle, and where its matter goes by, on a track.
+    fn opposite_wear(
         &self,
         opposite: &Primary,
         above: TrackSampling,
         key: &str,
-    ) -> Result<NodalWear, Error> {
+    ) -> Result<OppositeWear, Error> {
         let wear = self.table.wear.as_dyn();
         if !wear.active() {
-            return Ok(NodalWear::default());
+            return Ok(OppositeWear::default());
         }
         let extent = |at: Vec3| self.surfaces.space.extent(at);
         let facets = match opposite {
             Primary::Facets(facets) => facets,
             Primary::Rigid(..) if wear.fastest()[1] == WearRate::default() => {
-                return Ok(NodalWear::default());
+                return Ok(OppositeWear::default());
             }
             Primary::Rigid(shape, _) => {
-                return Ok(NodalWear::on(Ground::of_obstacle(
+                return Ok(OppositeWear::on(WearTrack::of_obstacle(
                     shape.as_dyn(),
                     above,
                     extent,
@@ -278,18 +279,18 @@ impl Make<'_> {
             }
         };
         if !goes_by(self.table) {
-            return Ok(NodalWear::new(facets, above.x, extent));
+            return Ok(OppositeWear::new(facets, above.x, extent));
         }
         let rows = belt(self.table);
         let speed = |row: &[f64; 4]| norm([row[1], row[2], row[3]]);
         let fastest = rows.iter().max_by(|a, b| speed(a).total_cmp(&speed(b)));
         let direction = fastest.map_or([1.0, 0.0, 0.0], |row| [row[1], row[2], row[3]]);
-        let ground = Ground::of_facets(facets, direction, above, extent);
+        let track = WearTrack::of_facets(facets, direction, above, extent);
         let message = "the primary wears and has a `primary-velocity`, and is not plane: where its matter is after a time is not known";
         let fault = Diagnostic::new(key, message)
             .help("make the primary an obstacle that turns by `motion.rotation`, or let the secondary alone wear");
-        ground
-            .map(NodalWear::on)
+        track
+            .map(OppositeWear::on)
             .ok_or_else(|| problem_error(vec![fault]))
     }
 
@@ -342,7 +343,7 @@ impl Make<'_> {
             x: &reference,
             dim: surfaces.space.dim(),
         };
-        let hollows = self.hollows(&opposite, above, &primary.key)?;
+        let opposite_wear = self.opposite_wear(&opposite, above, &primary.key)?;
         let mut interface = InterfaceDefinition {
             name,
             mesh: Arc::new(InterfaceMesh {
@@ -359,7 +360,7 @@ impl Make<'_> {
                 points,
                 alike,
                 mortar,
-                hollows,
+                opposite_wear,
                 walls: Walls::default(),
                 primary: opposite,
                 reference,

@@ -1,15 +1,15 @@
-//! An interface over a ground: what lies open beneath its points, and what they take.
+//! An interface over a track: what lies open beneath its points, and what they take.
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::belt::belt_gone;
-use super::definition::{InterfaceDefinition, Primary};
-use super::evaluation::Evaluations;
-use super::ground::Under;
-use super::history::History;
-use super::input::InterfaceInput;
-use super::scene::Scene;
-use super::sides::facet_weights;
+use super::super::belt::belt_gone;
+use super::super::definition::{InterfaceDefinition, Primary};
+use super::super::evaluation::Evaluations;
+use super::super::history::History;
+use super::super::input::InterfaceInput;
+use super::super::scene::Scene;
+use super::super::sides::facet_weights;
+use super::track::Under;
 use crate::contact::obstacle::{Place, Pose};
 use crate::math::{Vec3, add, add_scaled, norm, scale, sub};
 use crate::system::Stage;
@@ -28,11 +28,11 @@ fn opposite_moved(
     })
 }
 
-/// The depth of the ground beneath a point, which lies over the nodes of `sides` `[m]`.
-pub(super) fn ground_depth(i: usize, scene: &Scene, sides: &[(usize, f64)]) -> f64 {
+/// The depth of the track beneath a point, which lies over the nodes of `sides` `[m]`.
+pub(super) fn track_depth(i: usize, scene: &Scene, sides: &[(usize, f64)]) -> f64 {
     let interface = scene.interface;
-    let places = &interface.state.ground.places;
-    let (Some(ground), false) = (&interface.hollows.ground, places.is_empty()) else {
+    let places = &interface.state.worn.track.places;
+    let (Some(track), false) = (&interface.opposite_wear.track, places.is_empty()) else {
         return 0.0;
     };
     let x = &scene.geometry.x;
@@ -42,27 +42,27 @@ pub(super) fn ground_depth(i: usize, scene: &Scene, sides: &[(usize, f64)]) -> f
         pose: scene.poses.map(|(pose, _)| *pose),
         moved: add(moved, belt_gone(interface, scene.t)),
     };
-    let beneath = ground.beneath(i, x, &under);
+    let beneath = track.beneath(i, x, &under);
     beneath
         .map(|(place, w)| w * places.get(&place).copied().unwrap_or(0.0))
         .sum()
 }
 
-/// Takes from the ground what points have worn off it over an increment, along their ways.
-pub(super) fn wear_ground(
+/// Takes from the track what points have worn off it over an increment, along their ways.
+pub(in crate::contact::interface) fn wear_track(
     input: InterfaceInput,
     last: &Evaluations,
     volumes: &[f64],
     stage: &Stage,
     next: &mut History,
 ) {
-    let Some(ground) = &input.definition.hollows.ground else {
+    let Some(track) = &input.definition.opposite_wear.track else {
         return;
     };
     let ways = last.points.iter().zip(volumes);
     let ways = ways.filter(|(_, v)| **v != 0.0).map(|(e, _)| norm(e.moved));
     let longest = ways.fold(0.0, f64::max);
-    let parts = (longest / ground.chart.spacing()).ceil().clamp(1.0, MOST);
+    let parts = (longest / track.chart.spacing()).ceil().clamp(1.0, MOST);
     let [from, to] = [&stage.from.u, &stage.at.u].map(|u| input.coordinates(u));
     let mut lost: HashMap<Place, f64> = HashMap::new();
     for part in 0..parts as usize {
@@ -77,16 +77,16 @@ pub(super) fn wear_ground(
                 opposite_moved(&input, facet_weights(input.primary_nodes, last, i), &x),
             );
             let under = Under { pose, moved };
-            for (place, w) in ground.beneath(i, &x, &under).filter(|(_, w)| *w != 0.0) {
+            for (place, w) in track.beneath(i, &x, &under).filter(|(_, w)| *w != 0.0) {
                 *lost.entry(place).or_default() += w * volume / parts;
             }
         }
     }
     let gained: BTreeMap<Place, f64> = (lost.into_iter())
-        .map(|(place, volume)| (place, volume / ground.chart.area(place, ground.extent)))
+        .map(|(place, volume)| (place, volume / track.chart.area(place, track.extent)))
         .collect();
     let felt = feels(input, last, &gained, volumes, &to, stage.at.t);
-    let depths = &mut next.ground;
+    let depths = &mut next.worn.track;
     for (place, depth) in gained {
         *depths.places.entry(place).or_default() += depth;
     }
@@ -95,10 +95,10 @@ pub(super) fn wear_ground(
         *taken += volume;
     }
     depths.felt = felt;
-    show_ground(input, stage.at.t, next);
+    show_track(input, stage.at.t, next);
 }
 
-/// What lies open beneath each point at the end of an increment in which the ground `gained` depths, over what the point has taken per area: one where it stays on its track, little where
+/// What lies open beneath each point at the end of an increment in which the track `gained` depths, over what the point has taken per area: one where it stays on its track, little where
 /// it comes on matter that others have not worn.
 fn feels(
     interface: InterfaceInput,
@@ -108,7 +108,7 @@ fn feels(
     x: &[Vec3],
     t: f64,
 ) -> Vec<f64> {
-    let Some(ground) = &interface.hollows.ground else {
+    let Some(track) = &interface.opposite_wear.track else {
         return Vec::new();
     };
     let (pose, gone) = (pose(&interface, t), belt_gone(interface, t));
@@ -126,7 +126,7 @@ fn feels(
             ),
         );
         let under = Under { pose, moved };
-        let beneath = ground.beneath(i, x, &under);
+        let beneath = track.beneath(i, x, &under);
         let here = beneath.map(|(place, w)| w * gained.get(&place).copied().unwrap_or(0.0));
         (here.sum::<f64>() / own).clamp(0.0, 1.0)
     };
@@ -142,14 +142,14 @@ fn pose(interface: &InterfaceDefinition, t: f64) -> Option<Pose> {
 }
 
 /// Gives the nodes of the primary the depth of the matter that is there now.
-fn show_ground(interface: InterfaceInput, t: f64, next: &mut History) {
-    let (Some(ground), false) = (&interface.hollows.ground, interface.rigid()) else {
+fn show_track(interface: InterfaceInput, t: f64, next: &mut History) {
+    let (Some(track), false) = (&interface.opposite_wear.track, interface.rigid()) else {
         return;
     };
     let gone = belt_gone(interface, t);
-    let places = &next.ground.places;
+    let places = &next.worn.track.places;
     let depth = |x: &Vec3| -> f64 {
-        let around = ground.chart.around(sub(*x, gone)).into_iter();
+        let around = track.chart.around(sub(*x, gone)).into_iter();
         around
             .map(|(place, w)| w * places.get(&place).copied().unwrap_or(0.0))
             .sum()
@@ -158,9 +158,7 @@ fn show_ground(interface: InterfaceInput, t: f64, next: &mut History) {
         .iter()
         .map(depth)
         .collect();
-    let traces = &mut next.traces;
-    traces.resize(interface.nodes.len(), [0.0; 2]);
-    for (trace, depth) in traces.iter_mut().zip(shown) {
-        trace[1] = depth;
-    }
+    let depths = &mut next.worn.opposite;
+    depths.resize(interface.nodes.len(), 0.0);
+    depths[..shown.len()].copy_from_slice(&shown);
 }

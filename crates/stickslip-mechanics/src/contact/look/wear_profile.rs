@@ -1,6 +1,6 @@
 //! How far what is worn off goes beyond first order: a scar is added to gaps, and the surfaces themselves stay as they are.
 
-use super::wear::ground_scar;
+use super::wear::track_profile;
 use std::collections::HashMap;
 
 use crate::contact::facet_point::evaluate;
@@ -22,17 +22,16 @@ pub struct WearProfile {
 }
 
 /// How far wear goes beyond first order; `None` where nothing is worn off that contact feels.
-pub fn scar(contact: ContactView) -> Option<WearProfile> {
+pub fn wear_profile(contact: ContactView) -> Option<WearProfile> {
     if !contact.laws.wears_away() {
         return None;
     }
     let mut depths = vec![0.0; contact.nodes.len()];
-    for (depth, trace) in depths.iter_mut().zip(&contact.state.traces) {
-        *depth = trace[1];
-    }
-    for (h, p) in contact.state.points.iter().zip(&contact.points) {
+    let worn = &contact.state.worn;
+    depths[..worn.opposite.len()].copy_from_slice(&worn.opposite);
+    for (i, p) in contact.points.iter().enumerate() {
         if let Some(node) = p.node() {
-            depths[node] = h.worn;
+            depths[node] = worn.own_depth(i);
         }
     }
     let own: Vec<&Facet> = contact.skin.iter().map(|s| &s.facet).collect();
@@ -40,17 +39,17 @@ pub fn scar(contact: ContactView) -> Option<WearProfile> {
         Primary::Facets(facets) => facets.iter().collect(),
         Primary::Rigid(..) => Vec::new(),
     };
-    let sides = [own, theirs].map(|facets| scar_of(contact, &facets, &depths));
+    let sides = [own, theirs].map(|facets| profile_of(contact, &facets, &depths));
     let [a, b] = sides;
-    let [slope, curved] = ground_scar(contact);
+    let [slope, curved] = track_profile(contact);
     Some(WearProfile {
         slope: a.slope.max(b.slope).max(slope),
         curved: a.curved.max(b.curved).max(curved),
     })
 }
 
-fn scar_of(contact: ContactView, facets: &[&Facet], depths: &[f64]) -> WearProfile {
-    let mut scar = WearProfile::default();
+fn profile_of(contact: ContactView, facets: &[&Facet], depths: &[f64]) -> WearProfile {
+    let mut profile = WearProfile::default();
     // Normal and centre of the faces around each node.
     let mut around: HashMap<usize, Vec<(Vec3, Vec3)>> = HashMap::new();
     for facet in facets {
@@ -63,7 +62,7 @@ fn scar_of(contact: ContactView, facets: &[&Facet], depths: &[f64]) -> WearProfi
             around.entry(a).or_default().push((normal, at.x));
             for (l, &b) in facet.nodes.iter().enumerate().skip(k + 1) {
                 let way = norm(sub(nodes[k], nodes[l]));
-                scar.slope = scar.slope.max((depths[a] - depths[b]).abs() / way);
+                profile.slope = profile.slope.max((depths[a] - depths[b]).abs() / way);
             }
         }
     }
@@ -72,12 +71,12 @@ fn scar_of(contact: ContactView, facets: &[&Facet], depths: &[f64]) -> WearProfi
             for (m, y) in &faces[i + 1..] {
                 if dot(*n, *m) > EDGE {
                     let curvature = norm(sub(*n, *m)) / norm(sub(*x, *y));
-                    scar.curved = scar.curved.max(depths[node] * curvature);
+                    profile.curved = profile.curved.max(depths[node] * curvature);
                 }
             }
         }
     }
-    scar
+    profile
 }
 
 /// The longest way `[m]` that an increment may slide, times the cycles that it stands for, where what is worn off is felt from the next one on: a wave of the surface as

@@ -1,28 +1,28 @@
-//! What an interface has to know of the primary to keep a depth on it: at its nodes, or on a ground.
+//! What an interface has to know of the primary to keep a depth on it: at its nodes, or on a track.
 
-use super::ground::Ground;
+use super::track::WearTrack;
 use crate::contact::mortar::positive_areas;
 use crate::contact::surface::{Facet, edges};
 use crate::math::Vec3;
 
 /// How the depth of the primary is divided among its nodes.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct NodalWear {
+pub struct OppositeWear {
     /// Area of each node `[m²]`, zero of those between corners; empty where nothing wears.
     pub(in crate::contact) area: Vec<f64>,
     /// The two corners whose mean a node has: twice itself of a corner.
     pub(in crate::contact) ends: Vec<[usize; 2]>,
     /// Where the depth is kept in place of nodes: of an obstacle, and where matter goes by.
-    pub(in crate::contact) ground: Option<Ground>,
+    pub(in crate::contact) track: Option<WearTrack>,
 }
 
-impl NodalWear {
+impl OppositeWear {
     /// Of facets with their nodes at `x`; `extent` is that out of the plane, thickness or `2πr`.
     pub fn new(facets: &[Facet], x: &[Vec3], extent: impl Fn(Vec3) -> f64 + Copy) -> Self {
-        let mut out = NodalWear {
+        let mut out = OppositeWear {
             area: vec![0.0; x.len()],
             ends: (0..x.len()).map(|n| [n, n]).collect(),
-            ground: None,
+            track: None,
         };
         for facet in facets {
             let corners = facet.kind.corner_count();
@@ -45,11 +45,11 @@ impl NodalWear {
         out
     }
 
-    /// Of a primary whose depth is kept on a ground.
-    pub fn on(ground: Ground) -> Self {
-        NodalWear {
-            ground: Some(ground),
-            ..NodalWear::default()
+    /// Of a primary whose depth is kept on a track.
+    pub fn on(track: WearTrack) -> Self {
+        OppositeWear {
+            track: Some(track),
+            ..OppositeWear::default()
         }
     }
 

@@ -3,20 +3,20 @@
 //! The secondary has a depth at each contact point. With dual functions as weights, the mean gap of a point sees the depth of that point and of no other, so that
 //! the depth of a point times its area is volume lost. The primary has a depth at its nodes, linear in between: what a point takes from it is divided among the
 //! corners of the facets that it lies over by the weights they have in its gap, over the area of each of them, and the gap takes the mean with the same
-//! weights. An obstacle has no nodes, and those of a primary are of no use where its matter goes by under the mesh: there the depth is kept on a ground
-//! ([`Ground`](super::Ground)). What is lost on one side and the other is the volume that the laws say, to rounding, wherever one slides on the other.
+//! weights. An obstacle has no nodes, and those of a primary are of no use where its matter goes by under the mesh: there the depth is kept on a track
+//! ([`WearTrack`](super::WearTrack)). What is lost on one side and the other is the volume that the laws say, to rounding, wherever one slides on the other.
 //!
 //! Within an increment the depth of both follows from the pressure of the point at its end, most often in proportion: a compliance in series with the contact
 //! ([`LawInput::worn`](crate::contact::response::LawInput::worn)). The path in it is that which the iterate slides. Its derivative is in the tangent where there is
 //! friction; without friction it is left out, so that the tangent stays symmetric: the solution does not depend on that.
 
-use super::definition::InterfaceDefinition;
-use super::evaluation::{Evaluation, Evaluations};
-use super::history::{History, PointHistory};
-use super::input::InterfaceInput;
-use super::on_ground::ground_depth;
-use super::scene::Scene;
-use super::sides::facet_weights;
+use super::super::definition::InterfaceDefinition;
+use super::super::evaluation::{Evaluation, Evaluations};
+use super::super::history::{History, PointHistory};
+use super::super::input::InterfaceInput;
+use super::super::scene::Scene;
+use super::super::sides::facet_weights;
+use super::along_track::track_depth;
 use crate::contact::kinematics::Stencil;
 use crate::contact::law::wear::{Feedback, Sliding, WearPoint, WearRate};
 use crate::contact::response::{LawInput, Response, Status, Worn};
@@ -27,12 +27,17 @@ const EVALUATIONS: usize = 50;
 const SETTLED: f64 = 1e-13;
 
 /// Length of a way along two directions.
-pub(super) fn length(frame: [Vec3; 2], way: [f64; 2]) -> f64 {
+pub(in crate::contact::interface) fn length(frame: [Vec3; 2], way: [f64; 2]) -> f64 {
     norm(add_scaled(scale(way[0], frame[0]), way[1], frame[1]))
 }
 
 /// Length of the way that a point slid, which moved by `moved` in all; a sticking point slides nowhere, a frictionless one all the way it moves.
-pub(super) fn path(response: &Response, frictional: bool, frame: [Vec3; 2], moved: Vec3) -> f64 {
+pub(in crate::contact::interface) fn path(
+    response: &Response,
+    frictional: bool,
+    frame: [Vec3; 2],
+    moved: Vec3,
+) -> f64 {
     match (response.status, frictional) {
         (Status::Open, _) => 0.0,
         (_, true) => length(frame, response.sliding_path),
@@ -41,22 +46,26 @@ pub(super) fn path(response: &Response, frictional: bool, frame: [Vec3; 2], move
 }
 
 /// Depth that is open at a point before the increment, which lies over the nodes of `sides` `[m]`.
-pub(super) fn wear_gap(i: usize, scene: &Scene, sides: &[(usize, f64)]) -> f64 {
+pub(in crate::contact::interface) fn wear_gap(
+    i: usize,
+    scene: &Scene,
+    sides: &[(usize, f64)],
+) -> f64 {
     let interface = scene.interface;
     if !interface.laws.wears_away() {
         return 0.0;
     }
-    if interface.hollows.ground.is_some() {
-        return interface.state.points[i].worn + ground_depth(i, scene, sides);
+    if interface.opposite_wear.track.is_some() {
+        return interface.state.worn.own_depth(i) + track_depth(i, scene, sides);
     }
-    let traces = &interface.state.traces;
+    let worn = &interface.state.worn;
     let theirs = sides.iter().filter(|(n, _)| *n < interface.primary_nodes);
-    let theirs = theirs.map(|&(n, w)| -w * traces.get(n).map_or(0.0, |t| t[1]));
-    interface.state.points[i].worn + theirs.sum::<f64>()
+    let theirs = theirs.map(|&(n, w)| -w * worn.opposite_depth(n));
+    interface.state.worn.own_depth(i) + theirs.sum::<f64>()
 }
 
 /// By how much a point that slides a `path` over a time wears both sides away, near a pressure.
-pub(super) fn wear_compliance(
+pub(in crate::contact::interface) fn wear_compliance(
     interface: InterfaceInput,
     i: usize,
     path: f64,
@@ -84,7 +93,14 @@ pub(super) fn wear_compliance(
     };
     // h = k(p) p s has the tangent k p s + (k + p k') s (p' - p).
     let mut worn = Worn::default();
-    let felt = interface.state.ground.felt.get(i).copied().unwrap_or(1.0);
+    let felt = interface
+        .state
+        .worn
+        .track
+        .felt
+        .get(i)
+        .copied()
+        .unwrap_or(1.0);
     for (rate, part) in wear_rates(interface.definition, &at)
         .into_iter()
         .zip([1.0, felt])
@@ -99,7 +115,7 @@ pub(super) fn wear_compliance(
 /// What the laws answer a point that wears as it slides. How far it slides depends on the pressure, which falls with what is worn off: the way rises from what it
 /// is without wear and is never longer than the whole, so that evaluations one after the other come to its end. Where the rate depends on the pressure they are those of
 /// Newton's method, of a depth that rises with the pressure.
-pub(super) fn wearing(
+pub(in crate::contact::interface) fn wearing(
     interface: InterfaceInput,
     i: usize,
     stencil: &Stencil,
@@ -156,7 +172,7 @@ fn deepen(
 
 /// What a point wears off its own side and the other over an increment, per area that it stands for `[m]`. `pressed`: pressure times path by the
 /// trapezoidal rule.
-pub(super) fn wear_increment(
+pub(in crate::contact::interface) fn wear_increment(
     interface: InterfaceInput,
     h: &PointHistory,
     e: &Evaluation,
@@ -186,35 +202,35 @@ pub(super) fn wear_increment(
 }
 
 /// Adds volumes that points take from the primary to the depths of its corners.
-pub(super) fn add_nodal_wear(
+pub(in crate::contact::interface) fn add_nodal_wear(
     definition: &InterfaceDefinition,
     last: &Evaluations,
     volumes: &[f64],
     next: &mut History,
 ) {
-    if definition.hollows.is_empty() || volumes.iter().all(|v| *v == 0.0) {
+    if definition.opposite_wear.is_empty() || volumes.iter().all(|v| *v == 0.0) {
         return;
     }
     let mut lost = vec![0.0; definition.nodes.len()];
     for (i, volume) in volumes.iter().enumerate() {
         for (node, w) in facet_weights(definition.primary_nodes, last, i) {
-            for end in definition.hollows.ends[node] {
+            for end in definition.opposite_wear.ends[node] {
                 lost[end] += 0.5 * w * volume;
             }
         }
     }
-    let traces = &mut next.traces;
-    traces.resize(definition.nodes.len(), [0.0; 2]);
-    let areas = definition.hollows.area.iter().zip(&lost);
-    for (trace, (area, lost)) in traces.iter_mut().zip(areas) {
+    let depths = &mut next.worn.opposite;
+    depths.resize(definition.nodes.len(), 0.0);
+    let areas = definition.opposite_wear.area.iter().zip(&lost);
+    for (depth, (area, lost)) in depths.iter_mut().zip(areas) {
         if *area > 0.0 {
-            trace[1] += lost / area;
+            *depth += lost / area;
         }
     }
-    for node in 0..definition.hollows.ends.len() {
-        let [a, b] = definition.hollows.ends[node];
+    for node in 0..definition.opposite_wear.ends.len() {
+        let [a, b] = definition.opposite_wear.ends[node];
         if a != b {
-            traces[node][1] = 0.5 * (traces[a][1] + traces[b][1]);
+            depths[node] = 0.5 * (depths[a] + depths[b]);
         }
     }
 }

@@ -21,7 +21,7 @@ const PLANE: f64 = 1.0 - 1e-6;
 
 /// Where the depth of such a primary is kept, and what of it lies beneath each point.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Ground {
+pub struct WearTrack {
     pub(in crate::contact) chart: Chart,
     /// Extent out of the plane, and by how much it grows with the radius.
     pub(in crate::contact) extent: [f64; 2],
@@ -36,9 +36,9 @@ struct Sample {
     share: f64,
 }
 
-/// The depths of a ground.
+/// The depths of a track.
 #[derive(Debug, Clone, Default, PartialEq, crate::keep::Keep)]
-pub(in crate::contact) struct Depths {
+pub(in crate::contact) struct TrackDepths {
     /// By place `[m]`.
     pub places: BTreeMap<Place, f64>,
     /// What each point has taken `[m³]`; empty before one has.
@@ -63,7 +63,7 @@ impl Under {
     }
 }
 
-/// The secondary of a ground: its points, its faces and their nodes.
+/// The secondary of a track: its points, its faces and their nodes.
 #[derive(Clone, Copy)]
 pub struct TrackSampling<'a> {
     /// Points.
@@ -175,7 +175,7 @@ fn middles(kind: ElementKind, divisions: usize) -> Vec<[f64; 2]> {
     }
 }
 
-impl Ground {
+impl WearTrack {
     /// Of an obstacle; `extent` is that out of the plane, thickness or `2πr`.
     pub fn of_obstacle(
         shape: &dyn Shape,
@@ -208,7 +208,7 @@ impl Ground {
 
     fn on(chart: Chart, above: TrackSampling, extent: impl Fn(Vec3) -> f64) -> Self {
         let [least, most] = [0.0, 1.0].map(|r| extent([r, 0.0, 0.0]));
-        Ground {
+        WearTrack {
             samples: above.samples(chart.spacing(), &extent),
             extent: [least, most - least],
             chart,
