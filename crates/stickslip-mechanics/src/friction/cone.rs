@@ -1,5 +1,8 @@
 //! The set of shear tractions that friction allows, which slip rules, the friction problem and steady sliding share.
 
+/// Corners of the polygon that stands for the set where forces are sums of given ones.
+const CORNERS: usize = 24;
+
 /// All shear tractions no longer than a limit, by its two components along the directions of a contact frame.
 ///
 /// The frame of the paper's kinematics is not orthogonal: `skew` is the cosine of the angle between its directions and
@@ -39,6 +42,26 @@ impl Cone {
             (v[0] + self.skew * v[1]) / length,
             (v[1] + self.skew * v[0]) / length,
         ]
+    }
+
+    /// Corners of a polygon around the set, by components along as many directions as there are; in the plane its ends, and zero where shear has no direction. The set fills it
+    /// but for `1 - cos(π/24)` of its size.
+    pub fn corners(&self, directions: usize) -> Vec<[f64; 2]> {
+        match directions {
+            0 => vec![[0.0; 2]],
+            1 => vec![[self.limit, 0.0], [-self.limit, 0.0]],
+            _ => {
+                let step = std::f64::consts::TAU / CORNERS as f64;
+                let outside = (0.5 * step).cos();
+                let across = (1.0 - self.skew * self.skew).sqrt();
+                let corner = |k: usize| {
+                    let (sine, cosine) = (step * k as f64).sin_cos();
+                    let unit = [cosine - self.skew / across * sine, sine / across];
+                    unit.map(|v| self.limit * (v / outside))
+                };
+                (0..CORNERS).map(corner).collect()
+            }
+        }
     }
 
     /// The boundary point in the direction of a vector of this length, which is not zero and changes by `rate` times a motion: `limit v/|v|`. For a trial traction
@@ -81,6 +104,26 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn corners_lie_around_the_set_and_near_it() {
+        for skew in [0.0, 0.5] {
+            let cone = Cone { limit: 0.7, skew };
+            let corners = cone.corners(2);
+            let next = corners.iter().cycle().skip(1);
+            for (a, b) in corners.iter().zip(next) {
+                let middle = [0, 1].map(|i| 0.5 * (a[i] + b[i]));
+                assert!((cone.length(middle) - cone.limit).abs() < 1e-14, "{skew}");
+                assert!(cone.length(*a) < 1.01 * cone.limit);
+            }
+        }
+        let cone = Cone {
+            limit: 2.0,
+            skew: 0.0,
+        };
+        assert_eq!(cone.corners(1), [[2.0, 0.0], [-2.0, 0.0]]);
+        assert_eq!(cone.corners(0), [[0.0; 2]]);
     }
 
     #[test]

@@ -5,7 +5,7 @@
 
 use crate::contact::look::Pressing;
 use crate::math::{Vec3, add, cross, dot, scale, sub};
-use crate::model::anchors::Anchors;
+use crate::model::rigid::anchors::Anchors;
 
 /// A body that turns by a small rotation, and where it is held.
 #[derive(Debug, Clone, Copy, PartialEq)]

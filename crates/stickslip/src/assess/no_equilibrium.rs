@@ -9,11 +9,13 @@ use super::view::View;
 use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::contact::law::friction::FrictionPoint;
 use crate::error::RunError;
+use crate::friction::cone::Cone;
 use crate::math::{
     Vec3, add, add_scaled, cross, distance, dot, norm, normalize, rest_of_nonnegative, vector,
 };
-use crate::model::drivers::named;
-use crate::model::unheld::{Mode, NO_PART, Unheld, modes};
+use crate::model::rigid::drivers::named;
+use crate::model::rigid::held::{NO_PART, Unheld};
+use crate::model::rigid::modes::{Mode, modes};
 
 /// Displacements and gaps over the size of the smallest body up to which points are where they were meshed.
 const SMALL: f64 = 1e-3;
@@ -34,9 +36,6 @@ const SPEEDS: [f64; 4] = [0.0, 1e-3, 1.0, 1e3];
 
 /// Cosine between outward normals below which two places face each other.
 const FACING: f64 = -0.3;
-
-/// Edges of a cone of friction in space, and the cosine by which they lie outside of it.
-const EDGES: usize = 24;
 
 /// Most motions, and most points, that are looked at.
 const MOST_MOTIONS: usize = 60;
@@ -71,25 +70,20 @@ impl Holds {
         let target: Vec<f64> = loads.iter().map(|f| -f).collect();
         let mut columns = Vec::new();
         for spot in &self.spots {
-            let mu = friction(spot.mu);
-            let along = |a: f64, b: f64| -> Vec<f64> {
+            let cone = Cone {
+                limit: friction(spot.mu),
+                skew: 0.0,
+            };
+            let edge = |corner: [f64; 2]| -> Vec<f64> {
                 let mut out = spot.normal.clone();
-                for (factor, across) in [a, b].into_iter().zip(&spot.across) {
+                for (factor, across) in corner.into_iter().zip(&spot.across) {
                     out.iter_mut()
                         .zip(across)
-                        .for_each(|(o, t)| *o += mu * factor * t);
+                        .for_each(|(o, t)| *o += factor * t);
                 }
                 out
             };
-            match spot.across.len() {
-                0 => columns.push(spot.normal.clone()),
-                1 => columns.extend([along(1.0, 0.0), along(-1.0, 0.0)]),
-                _ => columns.extend((0..EDGES).map(|k| {
-                    let angle = std::f64::consts::TAU * k as f64 / EDGES as f64;
-                    let outside = (std::f64::consts::PI / EDGES as f64).cos();
-                    along(angle.cos() / outside, angle.sin() / outside)
-                })),
-            }
+            columns.extend(cone.corners(spot.across.len()).into_iter().map(edge));
         }
         let rest = rest_of_nonnegative(&columns, &target);
         (vector::norm(&rest) > left * vector::norm(&target)).then_some(rest)

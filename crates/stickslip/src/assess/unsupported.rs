@@ -4,8 +4,9 @@ use super::doctor::{DoctorCause, Finding, Severity, Suspect, body_at, let_go};
 use super::view::View;
 use crate::contact::look;
 use crate::error::RunError;
-use crate::model::drivers::named;
-use crate::model::unheld::{NO_PART, modes};
+use crate::model::rigid::drivers::named;
+use crate::model::rigid::held::NO_PART;
+use crate::model::rigid::modes::modes;
 use crate::system::StepFailure;
 use crate::time::Trial;
 

@@ -1,25 +1,22 @@
 //! What is simulated and where it stands: data, and what acts at a time.
 
-pub(crate) mod anchors;
 pub mod capability;
 pub(crate) mod conditions;
 pub(crate) mod contact;
 pub(crate) mod course;
 pub(crate) mod cycling;
 pub(crate) mod definition;
-pub(crate) mod drivers;
 pub(crate) mod frame;
-pub(crate) mod free_bodies;
 pub(crate) mod heat;
 pub(crate) mod kick;
 pub(crate) mod ledger;
 pub(crate) mod limits;
 pub(crate) mod modal;
+pub(crate) mod rigid;
 pub(crate) mod scene;
 pub(crate) mod second_field;
 pub(crate) mod setup;
 pub(crate) mod thermal;
-pub(crate) mod unheld;
 
 pub use contact::Contact;
 pub use course::Course;

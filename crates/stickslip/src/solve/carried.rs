@@ -4,12 +4,10 @@ use super::solver::Solver;
 use crate::math::Vec3;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
-use crate::model::free_bodies::together;
+use crate::model::rigid::modes::together;
+use crate::model::rigid::nearest::nearest_motion;
 use crate::system::Constraints;
 use crate::time::Trial;
-
-/// What is left of a motion at prescribed displacements, relative to the motion, below which others before it say the same.
-const SAME: f64 = 1e-6;
 
 impl Solver {
     /// Lets anchors begin where supports carry bodies in the increment. Anchors that stayed behind would hold a body back that slides under a drive: it would
@@ -53,26 +51,7 @@ fn carried(
     let over = |a: &[f64], b: &[f64]| -> f64 { prescribed.iter().map(|&d| a[d] * b[d]).sum() };
     let mut left = vec![0.0; model.dofs.count()];
     prescribed.iter().for_each(|&dof| left[dof] = change(dof));
-    let mut total = vec![0.0; left.len()];
-    let mut basis: Vec<Vec<f64>> = Vec::new();
-    for mode in modes {
-        let mut v = mode.vector;
-        v.resize(left.len(), 0.0);
-        let whole = over(&v, &v).sqrt();
-        for _ in 0..2 {
-            for q in &basis {
-                let s = over(&v, q);
-                v.iter_mut().zip(q).for_each(|(v, q)| *v -= s * q);
-            }
-        }
-        let size = over(&v, &v).sqrt();
-        if size <= SAME * whole {
-            continue;
-        }
-        v.iter_mut().for_each(|v| *v /= size);
-        let s = over(&left, &v);
-        total.iter_mut().zip(&v).for_each(|(t, v)| *t += s * v);
-        basis.push(v);
-    }
+    let motions = modes.into_iter().map(|mode| mode.vector);
+    let total = nearest_motion(motions, over, |v| over(&left, v), left.len());
     total.iter().any(|u| *u != 0.0).then_some(total)
 }

@@ -1,11 +1,13 @@
 //! Moves loose bodies, as rigid ones, the way their loads push them until they touch.
 
 use crate::contact::interface::{Conditions, meeting};
-use crate::math::{Vec3, add, add_scaled, dot, norm, scale, symmetric_eigen};
+use crate::math::{Vec3, add, add_scaled, dot, norm, scale};
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
-use crate::model::free_bodies::FreeBody;
+use crate::model::rigid::free_bodies::FreeBody;
+use crate::model::rigid::held::HELD;
+use crate::model::rigid::null_space_below;
 use crate::time::Trial;
 
 /// Where loose bodies come to touch.
@@ -200,10 +202,8 @@ fn common(members: &[&FreeBody]) -> Vec<Vec3> {
             }
         }
     }
-    let (values, vectors) = symmetric_eigen(&held);
-    let free = values.iter().enumerate().filter(|(_, v)| **v < 1e-8);
-    free.map(|(k, _)| std::array::from_fn(|i| vectors[i][k]))
-        .collect()
+    let free = null_space_below(&held, HELD).into_iter();
+    free.map(|v| [v[0], v[1], v[2]]).collect()
 }
 
 /// Adds the motion that the load gives a body which can only turn, or of which a pretension has cut off a part: against that no load moves the part.

@@ -13,7 +13,7 @@ use crate::math::{dot, norm};
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
-use crate::model::free_bodies::FreeBody;
+use crate::model::rigid::free_bodies::FreeBody;
 use crate::model::scene::Scene;
 use crate::system::{Stage, State};
 use crate::time::Trial;

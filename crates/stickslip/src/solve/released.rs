@@ -7,7 +7,7 @@ use crate::math::norm;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
-use crate::model::free_bodies::FreeBody;
+use crate::model::rigid::free_bodies::FreeBody;
 use crate::model::scene::Scene;
 use crate::time::Trial;
 

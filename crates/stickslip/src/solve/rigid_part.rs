@@ -1,49 +1,29 @@
 //! The motion without strain that is nearest to what points of a body did.
 
 use crate::math::{Vec3, norm};
-use crate::model::free_bodies::FreeBody;
+use crate::model::rigid::free_bodies::FreeBody;
+use crate::model::rigid::nearest::nearest_motion;
+use crate::system::Dofs;
 
 /// Adds to `u` the free motion of a body that comes nearest to what some of its points have `moved`; its largest displacement there.
 pub(super) fn rigid_part(
     free: &FreeBody,
     moved: &[(usize, Vec3)],
-    dofs: crate::system::Dofs,
+    dofs: Dofs,
     u: &mut [f64],
 ) -> f64 {
-    let mut basis: Vec<Vec<f64>> = Vec::new();
-    let over = |a: &[f64], b: &dyn Fn(usize, usize) -> f64| -> f64 {
-        let mut sum = 0.0;
-        for (n, (p, _)) in moved.iter().enumerate() {
-            for c in 0..dofs.dim {
-                sum += a[dofs.of(*p, c)] * b(n, c);
-            }
-        }
-        sum
+    let known = || moved.iter().map(|(p, at)| (*p, *at));
+    let over = |a: &[f64], b: &[f64]| -> f64 {
+        let own = known().flat_map(|(p, _)| dofs.of(p, 0)..dofs.of(p + 1, 0));
+        own.map(|dof| a[dof] * b[dof]).sum()
     };
-    // Orthonormal with regard to the anchored points.
-    for (_, motion) in &free.motions {
-        let mut v = motion.clone();
-        for _ in 0..2 {
-            for q in &basis {
-                let s = over(&v, &|n, c| q[dofs.of(moved[n].0, c)]);
-                v.iter_mut().zip(q).for_each(|(v, q)| *v -= s * q);
-            }
-        }
-        let size = over(&v, &|n, c| v[dofs.of(moved[n].0, c)]).sqrt();
-        if size > 1e-8 {
-            v.iter_mut().for_each(|v| *v /= size);
-            basis.push(v);
-        }
-    }
-    let mut way: f64 = 0.0;
-    let mut total = vec![0.0; u.len()];
-    for q in &basis {
-        let s = over(q, &|n, c| moved[n].1[c]);
-        total.iter_mut().zip(q).for_each(|(t, q)| *t += s * q);
-    }
-    for (n, _) in moved.iter().enumerate() {
-        way = way.max(norm(dofs.vector(&total, moved[n].0)));
-    }
+    let along = |a: &[f64]| -> f64 {
+        let own = known().flat_map(|(p, at)| (0..dofs.dim).map(move |c| (dofs.of(p, c), at[c])));
+        own.map(|(dof, at)| a[dof] * at).sum()
+    };
+    let motions = free.motions.iter().map(|(_, motion)| motion.clone());
+    let total = nearest_motion(motions, over, along, u.len());
     u.iter_mut().zip(&total).for_each(|(u, t)| *u += t);
-    way
+    let ways = known().map(|(p, _)| norm(dofs.vector(&total, p)));
+    ways.fold(0.0, f64::max)
 }

@@ -9,8 +9,8 @@ use crate::assess::view::View;
 use crate::contact::interface::Primary;
 use crate::math::{Vec3, add, add_scaled, dot, norm, normalize, scale, vector};
 use crate::model::definition::Body;
+use crate::model::rigid::modes::modes;
 use crate::model::scene::Scene;
-use crate::model::unheld;
 
 /// Cosine between outward normals below which two places face each other.
 const FACING: f64 = -0.3;
@@ -48,7 +48,7 @@ fn beyond(view: &View, t: f64, slight: f64) -> Option<Finding> {
     let held = view.constraints(t).fixed;
     let loads = view.loads(t);
     let scale_of_loads = vector::norm(&loads);
-    let modes = unheld::modes(model);
+    let modes = modes(model);
     let couplings = view.couplings();
     let rows: Vec<_> = couplings.acting(t).chain(couplings.stops(t)).collect();
     for (index, body) in model.bodies.iter().enumerate() {

@@ -5,17 +5,16 @@ use crate::assess::view::View;
 use crate::contact::facet_point::evaluate;
 use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::contact::response::Status;
-use crate::math::{Vec3, symmetric_eigen};
-use crate::model::unheld::{self, Mode};
+use crate::math::Vec3;
+use crate::model::rigid::held::HELD;
+use crate::model::rigid::modes::{Mode, modes};
+use crate::model::rigid::null_space;
 
 /// Something that resists a motion: a linear function of the displacements by dof.
 pub(super) type Row = Vec<(usize, f64)>;
 
 /// Most modes that are looked at together.
 const MOST_MODES: usize = 90;
-
-/// What is left of a motion, relative to the stiffest of its body, that counts as held.
-const HELD: f64 = 1e-10;
 
 /// A motion that nothing holds.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,7 +34,7 @@ pub(super) fn floating(view: &View, t: f64, rows: &[Row]) -> Vec<FloatingBody> {
             held[dof] |= stiffness > 0.0;
         }
     }
-    let modes = unheld::modes(model);
+    let modes = modes(model);
     if modes.len() > MOST_MODES {
         return Vec::new();
     }
@@ -63,15 +62,9 @@ pub(super) fn floating(view: &View, t: f64, rows: &[Row]) -> Vec<FloatingBody> {
             (0..count).map(entry).collect()
         })
         .collect();
-    let (values, vectors) = symmetric_eigen(&gram);
-    let largest = values.last().copied().unwrap_or(0.0).max(1.0);
     let mut out = Vec::new();
-    for (k, _) in values
-        .iter()
-        .enumerate()
-        .filter(|(_, v)| **v <= HELD * largest)
-    {
-        let share = |i: usize| vectors[i][k].abs();
+    for motion in null_space(&gram, HELD).0 {
+        let share = |i: usize| motion[i].abs();
         let Some(first) = (0..count).max_by(|&i, &j| share(i).total_cmp(&share(j))) else {
             continue;
         };

@@ -8,7 +8,8 @@ use super::super::finding::{Finding, Severity, Suspect};
 use super::super::places::body;
 use crate::assess::view::View;
 use crate::model::definition::{Body, Model, Step};
-use crate::model::unheld::{self, Mode, NO_PART};
+use crate::model::rigid::held::NO_PART;
+use crate::model::rigid::modes::{Mode, modes};
 use crate::system::{Course, Schedule};
 
 /// What a step leaves out: its kind, its name, and the body.
@@ -58,7 +59,7 @@ pub(super) fn check(view: &View) -> Vec<Finding> {
     if !dropped_any(model) {
         return out;
     }
-    let modes = unheld::modes(model);
+    let modes = modes(model);
     for pair in model.steps.windows(2) {
         let [before, step] = pair else { continue };
         // In motion letting go is how things begin.

@@ -1,19 +1,17 @@
 //! Bodies that supports, springs and couplings leave free to move.
 
-use super::contact::Contact;
-use super::definition::{Model, Reference};
-use super::frame::ContactMemory;
-use super::scene::Scene;
-use super::unheld::{BEYOND, Mode, NO_PART, Resisted, directions, modes, plain};
+use super::super::contact::Contact;
+use super::super::definition::{Model, Reference};
+use super::super::frame::ContactMemory;
+use super::super::scene::Scene;
+use super::held::{HELD, NO_PART, Resisted, directions, plain};
+use super::modes::{BEYOND, Mode, centre, modes, motions, shift_and_turn};
+use super::{null_space, null_space_below};
 use crate::body::couplings::Row;
 use crate::body::{RigidMode, rigid_modes};
 use crate::contact::interface::Interface;
 use crate::contact::look;
-use crate::math::{Vec3, add, cross, scale, sub, symmetric_eigen};
-use crate::system::Motion;
-
-/// Resistance to a motion, relative to the largest, below which the motion is free.
-const FREE: f64 = 1e-10;
+use crate::math::{Vec3, add, cross, sub};
 
 /// Part of a mode in a motion, relative to the largest, from which on the mode is named.
 const NAMED: f64 = 0.1;
@@ -191,11 +189,7 @@ fn free(
     gram: &[Vec<f64>],
     modes: &[Mode],
 ) -> Option<FreeBody> {
-    let (values, vectors) = symmetric_eigen(gram);
-    let none = FREE * values.last().copied().unwrap_or(0.0).max(f64::MIN_POSITIVE);
-    let column = |k: usize| (0..parts.len()).map(|i| vectors[i][k]).collect();
-    let unheld = values.iter().enumerate().filter(|(_, v)| **v <= none);
-    let mut unheld: Vec<Vec<f64>> = unheld.map(|(k, _)| column(k)).collect();
+    let (mut unheld, none) = null_space(gram, HELD);
     if group.len() > 1 {
         unheld = plain(unheld);
     }
@@ -243,12 +237,10 @@ fn free(
     let block: Vec<Vec<f64>> = (along.iter())
         .map(|(_, a)| along.iter().map(|(_, b)| together(a, b)).collect())
         .collect();
-    let (values, vectors) = symmetric_eigen(&block);
-    let slides = values.iter().enumerate().filter(|(_, v)| **v <= none);
-    let slides = slides.map(|(k, _)| {
+    let slides = null_space_below(&block, none).into_iter().map(|vector| {
         let mut slide = [0.0; 3];
-        for (i, (c, _)) in along.iter().enumerate() {
-            slide[*c] = vectors[i][k];
+        for ((c, _), part) in along.iter().zip(vector) {
+            slide[*c] = part;
         }
         slide
     });
@@ -297,68 +289,4 @@ fn axis(motion: &str) -> Option<usize> {
     let axes = ["x", "y", "z"].into_iter();
     let translation = motion.strip_prefix("translation ")?;
     axes.into_iter().position(|a| a == translation)
-}
-
-/// The motions of bodies together without strain, over all dofs.
-pub(crate) fn together(model: &Model, bodies: &[usize]) -> Vec<RigidMode> {
-    if let &[only] = bodies
-        && let Some(rigid) = model.bodies[only].rigid
-    {
-        return motions(model, rigid.link);
-    }
-    let of = |&b: &usize| model.bodies[b].points.clone();
-    let points: Vec<usize> = bodies.iter().flat_map(of).collect();
-    let mut modes = rigid_modes(&model.mesh, &points, model.space);
-    let centre = centre(model, &points);
-    let links = bodies.iter().filter_map(|&b| model.bodies[b].rigid);
-    let links: Vec<_> = links.map(|r| &model.links.all()[r.link]).collect();
-    for mode in &mut modes {
-        let (shift, turn) = shift_and_turn(&mode.name);
-        mode.vector.resize(model.dofs.count(), 0.0);
-        for link in &links {
-            let moved = add(shift, cross(turn, sub(link.centre, centre)));
-            for (dof, motion) in link.motions(model.dofs) {
-                mode.vector[dof] = match motion {
-                    Motion::Translation(i) => moved[i],
-                    Motion::Rotation(i) => turn[i] * link.length,
-                };
-            }
-        }
-    }
-    modes
-}
-
-/// The mean of points.
-fn centre(model: &Model, points: &[usize]) -> Vec3 {
-    let sum = points
-        .iter()
-        .map(|&p| model.mesh.points[p])
-        .fold([0.0; 3], add);
-    scale(1.0 / points.len().max(1) as f64, sum)
-}
-
-/// What a motion of this name does: how it shifts and how it turns.
-fn shift_and_turn(name: &str) -> (Vec3, Vec3) {
-    let unit = |kind: &str| -> Vec3 {
-        let axis = name.strip_prefix(kind);
-        ["x", "y", "z"].map(|a| f64::from(u8::from(axis == Some(a))))
-    };
-    (unit("translation "), unit("rotation about "))
-}
-
-/// The motions of a rigid body over all dofs, hidden ones and those of its points.
-pub(crate) fn motions(model: &Model, link: usize) -> Vec<RigidMode> {
-    let motions = model.links.all()[link].motions(model.dofs);
-    motions
-        .into_iter()
-        .map(|(dof, motion)| {
-            let mut vector = vec![0.0; model.dofs.count()];
-            vector[dof] = 1.0;
-            model.links.impose(&mut vector);
-            RigidMode {
-                name: motion.to_string(),
-                vector,
-            }
-        })
-        .collect()
 }

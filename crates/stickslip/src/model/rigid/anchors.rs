@@ -1,6 +1,6 @@
 //! Where supports hold bodies: what does not move when they turn.
 
-use super::scene::Scene;
+use super::super::scene::Scene;
 use crate::math::{Vec3, add_scaled, scale};
 
 /// Where a body is held, by direction: the mean of the places that supports hold in it; `None` where it is free to move.

@@ -1,107 +1,12 @@
 //! Motions of whole bodies that nothing can hold, however contact comes out: known before a quasi-static step begins.
 
-use super::definition::{Model, Reference};
-use super::scene::Scene;
-use crate::body::couplings::Row;
+use super::super::definition::Model;
+use super::super::scene::Scene;
+use super::modes::Mode;
+use super::null_space;
 use crate::contact::interface::{Interface, Primary};
 use crate::contact::look;
-use crate::math::{Vec3, add, cross, dot, norm, scale, sub, symmetric_eigen};
-use crate::system::{Freedom, Motion};
-
-/// A motion of one body without strain.
-pub(crate) struct Mode {
-    /// The body.
-    pub body: usize,
-    /// `translation x`, `rotation about z`.
-    pub name: String,
-    shift: Vec3,
-    turn: Vec3,
-    centre: Vec3,
-    /// The dof that stands for it in a rigid body.
-    hidden: Option<usize>,
-    /// The part of the body that moves alone, if it is not the whole.
-    piece: Option<usize>,
-}
-
-impl Mode {
-    /// A motion of a body, or a part of it, about a centre, rotations by the length that they are measured with.
-    fn new(
-        body: usize,
-        piece: Option<usize>,
-        motion: Motion,
-        centre: Vec3,
-        length: f64,
-        hidden: Option<usize>,
-    ) -> Self {
-        let (mut shift, mut turn) = ([0.0; 3], [0.0; 3]);
-        match motion {
-            Motion::Translation(i) => shift[i] = 1.0,
-            Motion::Rotation(i) => turn[i] = 1.0 / length,
-        }
-        Mode {
-            body,
-            name: match piece {
-                None => motion.to_string(),
-                Some(_) => format!("{motion} {BEYOND}"),
-            },
-            shift,
-            turn,
-            centre,
-            hidden,
-            piece,
-        }
-    }
-
-    /// The velocity of what moves with the body at a place.
-    pub fn velocity(&self, x: Vec3) -> Vec3 {
-        add(self.shift, cross(self.turn, sub(x, self.centre)))
-    }
-
-    /// The angle by which it turns `[rad/m]`.
-    pub fn angle(&self) -> f64 {
-        norm(self.turn)
-    }
-
-    /// Relative motion of a point against the point that it faces: 1 or -1 where one of them moves with the mode, 0 where both do or none does.
-    pub fn relative(&self, model: &Model, own: usize, facing: Option<usize>) -> f64 {
-        let goes = |point: usize| f64::from(u8::from(self.moves(model, point)));
-        goes(own) - facing.map_or(0.0, goes)
-    }
-
-    /// Whether a point moves with it.
-    fn moves(&self, model: &Model, point: usize) -> bool {
-        let body = &model.bodies[self.body];
-        match self.piece {
-            None => body.points.contains(&point),
-            Some(piece) => body.pieces[piece].binary_search(&point).is_ok(),
-        }
-    }
-
-    /// The rate of a sum of displacements.
-    pub fn along(&self, model: &Model, row: &Row) -> f64 {
-        let terms = row.terms();
-        terms.map(|(dof, a)| a * self.at(model, dof)).sum()
-    }
-
-    /// The motion at a dof.
-    pub fn at(&self, model: &Model, dof: usize) -> f64 {
-        let (point, component) = model.dofs.locate(dof);
-        match model.mesh.points.get(point) {
-            Some(_) if !self.moves(model, point) => 0.0,
-            Some(&x) => self.velocity(x)[component],
-            None if self.hidden == Some(dof) => 1.0,
-            None => {
-                let own = |r: &Reference| r.body == Some(self.body);
-                let carried = model.carried(own, |x| self.velocity(x), self.turn);
-                let own = carried.into_iter().find(|(d, _)| *d == dof);
-                own.map_or(0.0, |(_, moved)| moved)
-            }
-        }
-    }
-}
-
-/// What is said of motions of a part that a pretension has cut off.
-pub(super) const BEYOND: &str = "beyond the cut";
+use crate::math::{Vec3, dot, symmetric_eigen};
 
 /// A motion that nothing holds: how much of each mode is in it.
 pub(crate) type Unheld = Vec<f64>;
@@ -109,8 +14,8 @@ pub(crate) type Unheld = Vec<f64>;
 /// Most modes that are looked at together.
 const MOST_MODES: usize = 120;
 
-/// What is left of a motion, relative to the stiffest, that counts as held.
-const HELD: f64 = 1e-10;
+/// Resistance to a motion, relative to the largest, up to which nothing holds it.
+pub(crate) const HELD: f64 = 1e-10;
 
 /// Part of a motion below which a mode is no part of it.
 pub(crate) const NO_PART: f64 = 1e-6;
@@ -120,50 +25,6 @@ const ASKED: usize = 2000;
 
 /// Least share of the directions of an interface.
 const FLAT: f64 = 1e-9;
-
-/// The motions of all bodies, each of size one at the rim of the body.
-pub(crate) fn modes(model: &Model) -> Vec<Mode> {
-    let axes: (&[usize], &[usize]) = match model.space {
-        crate::body::Space::Axisymmetric => (&[1], &[]),
-        crate::body::Space::Solid => (&[0, 1, 2], &[0, 1, 2]),
-        _ => (&[0, 1], &[2]),
-    };
-    let mut out = Vec::new();
-    for (body, b) in model.bodies.iter().enumerate() {
-        if let Some(rigid) = b.rigid {
-            let link = &model.links.all()[rigid.link];
-            let first = model.mesh.points[link.points.start];
-            let centre = link.arms.first().map_or(first, |&arm| sub(first, arm));
-            // The axis of symmetry is where the radius is zero.
-            let centre = match link.freedom {
-                Freedom::Axial | Freedom::Carried => [0.0; 3],
-                _ => centre,
-            };
-            for (dof, motion) in link.motions(model.dofs) {
-                let length = link.length;
-                out.push(Mode::new(body, None, motion, centre, length, Some(dof)));
-            }
-            continue;
-        }
-        let whole: Vec<usize> = b.points.clone().collect();
-        let pieces = b.pieces.iter().enumerate();
-        let parts = std::iter::once((None, &whole)).chain(pieces.map(|(k, p)| (Some(k), p)));
-        for (piece, points) in parts {
-            let points = || points.iter().map(|&p| model.mesh.points[p]);
-            let sum = points().fold([0.0; 3], add);
-            let centre = scale(1.0 / points().count().max(1) as f64, sum);
-            let rim = points().map(|x| crate::math::distance(x, centre));
-            let rim = rim.fold(f64::MIN_POSITIVE, f64::max);
-            let (translations, rotations) = axes;
-            let moves = translations.iter().map(|&i| Motion::Translation(i));
-            let turns = rotations.iter().map(|&i| Motion::Rotation(i));
-            for motion in moves.chain(turns) {
-                out.push(Mode::new(body, piece, motion, centre, rim, None));
-            }
-        }
-    }
-    out
-}
 
 /// Sums of products of what resists the modes.
 pub(super) struct Resisted<'a> {
@@ -264,12 +125,7 @@ impl Scene<'_> {
             let directions = directions(interface, t);
             resisted.interface(interface, &directions);
         }
-        let (values, vectors) = symmetric_eigen(&resisted.gram);
-        let largest = values.last().copied().unwrap_or(0.0).max(f64::MIN_POSITIVE);
-        let none = values.iter().enumerate();
-        let none = none.filter(|(_, v)| **v <= HELD * largest);
-        let none = none.map(|(k, _)| (0..count).map(|i| vectors[i][k]).collect());
-        plain(none.collect())
+        plain(null_space(&resisted.gram, HELD).0)
     }
 }
 

@@ -1,7 +1,8 @@
 //! What drives a motion that nothing holds: the loads, supports and obstacles behind it, by name.
 
-use super::scene::Scene;
-use super::unheld::{Mode, NO_PART, Unheld, modes};
+use super::super::scene::Scene;
+use super::held::{NO_PART, Unheld};
+use super::modes::{Mode, modes};
 use crate::contact::interface::{Interface, Primary};
 
 /// Force along a motion, relative to the sum of its parts, that is rounding.
