@@ -24,6 +24,43 @@ impl std::ops::DerefMut for CouplingsForce<'_> {
     }
 }
 
+/// Force and stiffness of a gap that presses with a negative force; none where it would pull.
+fn closed(force: f64, stiffness: f64) -> (f64, f64) {
+    match force > 0.0 {
+        true => (0.0, 0.0),
+        false => (force, stiffness),
+    }
+}
+
+/// A row with a multiplier that is eliminated.
+struct Multiplied<'a> {
+    row: &'a Row,
+    gap: bool,
+    /// The multiplier `[N]`.
+    known: f64,
+    /// By how much the row asks it to change `[N]`.
+    pull: f64,
+    /// Stiffness of the bodies over that with which it is eliminated.
+    bodies: f64,
+}
+
+impl Multiplied<'_> {
+    /// Enters what eliminating the multiplier adds; whether it is that of a gap that is open.
+    fn eliminate(&self, out: &mut Assembler) -> bool {
+        let open = self.gap && self.known + self.pull > 0.0;
+        // The multiplier of a gap that is open goes to zero.
+        let pull = if open { -self.known } else { self.pull };
+        let terms = self.row.terms();
+        terms.for_each(|(dof, a)| out.condensed[dof] += a * pull);
+        let size = self.row.norm() * pull.abs();
+        // A gap that has just closed is off by far more than what it will bear.
+        let fresh = self.gap && self.known == 0.0;
+        let size = if fresh { size * self.bodies } else { size };
+        out.multiplier_residual = larger(out.multiplier_residual, size);
+        open
+    }
+}
+
 impl Force for CouplingsForce<'_> {
     fn begin(&mut self) {
         let multipliers = &self.memory.multipliers;
@@ -52,7 +89,6 @@ impl Force for CouplingsForce<'_> {
         for (i, coupling, row) in definition.rows() {
             let sum = row.sum(u);
             let hold = hold[i];
-            let norm = row.norm();
             let act = definition.act(i, coupling, memory.start[i], stage.at.t);
             let (force, stiffness) = match act {
                 Act::Idle => continue,
@@ -91,46 +127,35 @@ impl Force for CouplingsForce<'_> {
                         }
                         continue;
                     }
-                    if explicit && !gap {
+                    match (explicit, gap) {
                         // Held exactly, by whoever makes the increment.
-                        continue;
-                    }
-                    let stiffness = match explicit {
-                        true => hold.stiffness,
-                        false => elimination.of(i).unwrap_or(hold.stiffness),
-                    };
-                    let rest = if explicit { memory.rest(i) } else { 0.0 };
-                    let pull = stiffness * (off - rest);
-                    let known = match explicit {
-                        true => memory.multipliers[i],
-                        false => now[i],
-                    };
-                    let open = gap && known + pull > 0.0;
-                    if explicit {
-                        match open {
-                            true => (0.0, 0.0),
-                            false => (known + pull, stiffness),
+                        (true, false) => continue,
+                        (true, true) => {
+                            let pull = hold.stiffness * (off - memory.rest(i));
+                            closed(memory.multipliers[i] + pull, hold.stiffness)
                         }
-                    } else {
-                        // The multiplier of a gap that is open goes to zero.
-                        let pull = if open { -known } else { pull };
-                        row.terms()
-                            .for_each(|(dof, a)| out.condensed[dof] += a * pull);
-                        let size = norm * pull.abs();
-                        // A gap that has just closed is off by far more than what it will bear.
-                        let fresh = gap && known == 0.0;
-                        let bodies = hold.stiffness / (FIRM * stiffness);
-                        let size = if fresh { size * bodies } else { size };
-                        out.multiplier_residual = larger(out.multiplier_residual, size);
-                        if open {
-                            off_now[i] = f64::INFINITY;
+                        (false, _) => {
+                            let stiffness = elimination.of(i).unwrap_or(hold.stiffness);
+                            let row = Multiplied {
+                                row,
+                                gap,
+                                known: now[i],
+                                pull: stiffness * off,
+                                bodies: hold.stiffness / (FIRM * stiffness),
+                            };
+                            match row.eliminate(out) {
+                                true => {
+                                    off_now[i] = f64::INFINITY;
+                                    (now[i], 0.0)
+                                }
+                                false => (now[i], stiffness),
+                            }
                         }
-                        (known, if open { 0.0 } else { stiffness })
                     }
                 }
             };
             // what rounding leaves of displacements that are large
-            let rounding = 4.0 * f64::EPSILON * stiffness * row.size(u) * norm;
+            let rounding = 4.0 * f64::EPSILON * stiffness * row.size(u) * row.norm();
             out.rounding += rounding * rounding;
             out.add_coupling(&row.dofs);
             scratch.push(row, force, out);

@@ -28,23 +28,72 @@ use std::sync::Arc;
 
 use super::{BodyRotation, Problem};
 use crate::body::Elastic;
-use crate::body::couplings::{Couplings, Ground};
+use crate::body::Space;
+use crate::body::couplings::{Coupling, Couplings, Ground};
 use crate::body::loads::{Action, Domain, Load, LoadKind, Pressing, Region, Spring, Target};
 use crate::contact::interface::{Interface, InterfaceDefinition};
 use crate::error::{Diagnostic, Error};
-use crate::mesh::FacetRef;
+use crate::mesh::{FacetRef, Mesh};
 use crate::model::{
-    Actions, Body, Contact, Heat, Model, OutputPlan, Prescribed, Probe, ReportPlan, Setup,
-    SolutionPlan, Support,
+    Actions, Body, Contact, Heat, Model, OutputPlan, Prescribed, Probe, Reference, ReportPlan,
+    Setup, SolutionPlan, Step, Support,
 };
 use crate::newton::Settings;
-use crate::system::{Dofs, Links, Motion};
+use crate::system::{BodyFrames, Corotations, DependentNode, Dofs, Link, Links, Motion};
 pub use meshes::Meshes;
 
 use fault::problem_error;
 use rigid::RigidBodies;
 use schedules::Timeline;
 use sets::Sets;
+
+/// The bodies of a problem as they are built.
+struct BuiltBodies {
+    bodies: Vec<Body>,
+    /// Those of the rigid ones.
+    links: Vec<Link>,
+    /// Materials of each body, by part.
+    materials: Vec<Vec<String>>,
+    /// By block of the mesh `[kg/m³]`.
+    densities: Vec<f64>,
+}
+
+/// Meshes, bodies and names: what the rest of a problem refers to.
+struct Assembled<'a> {
+    mesh: &'a Arc<Mesh>,
+    space: Space,
+    dofs: Dofs,
+    bodies: &'a [Body],
+    links: &'a Links,
+    frames: &'a Arc<BodyFrames>,
+    densities: &'a [f64],
+    sets: &'a Sets<'a>,
+    timeline: &'a Timeline,
+    cuts: &'a [cuts::BuiltCut],
+}
+
+impl<'a> Assembled<'a> {
+    fn rigid(&self) -> RigidBodies<'a> {
+        RigidBodies {
+            links: self.links,
+            bodies: self.bodies,
+            dofs: self.dofs,
+        }
+    }
+}
+
+/// What acts on bodies and joins them, and when.
+struct Attached {
+    loads: Vec<Load>,
+    springs: Vec<Spring>,
+    masses: Vec<(usize, f64)>,
+    couplings: Vec<Coupling>,
+    supports: Vec<Support>,
+    steps: Vec<Step>,
+    references: Vec<Reference>,
+    followers: Vec<DependentNode>,
+    corotations: Corotations,
+}
 
 impl Problem {
     /// Builds what can be simulated. Mesh files are looked for relative to `folder`.
@@ -90,6 +139,174 @@ impl Problem {
         })
     }
 
+    /// The bodies, with the links of the rigid ones.
+    fn bodies(
+        &self,
+        parts: Vec<meshes::BuiltBody>,
+        mesh: &Arc<Mesh>,
+        space: Space,
+    ) -> Result<BuiltBodies, Error> {
+        let mut bodies = Vec::new();
+        let mut links = Vec::new();
+        let mut materials = Vec::new();
+        let mut densities = vec![0.0; mesh.blocks.len()];
+        for part in parts {
+            let table = &self.body[&part.name];
+            for p in &part.parts {
+                densities[p.block] = p.density;
+            }
+            let elastic = Elastic::new(
+                &part.name,
+                Arc::clone(mesh),
+                space,
+                table.formulation,
+                part.parts,
+            )
+            .map_err(|e| problem_error(vec![e.under(&format!("body.{}", part.name))]))?;
+            let elastic = match table.rotation {
+                BodyRotation::Corotational => elastic.corotational(),
+                _ => elastic,
+            };
+            materials.push(part.materials);
+            let rigid = table.rigid.then(|| {
+                let hidden = mesh.points.len() + 2 * links.len();
+                let (link, rigid) = rigid::link(
+                    &elastic,
+                    part.points.clone(),
+                    hidden,
+                    links.len(),
+                    &table.rotation,
+                );
+                links.push(link);
+                rigid
+            });
+            bodies.push(Body {
+                name: part.name,
+                rigid,
+                points: part.points,
+                blocks: part.blocks,
+                pieces: part.pieces,
+                elastic,
+                rayleigh: match table.rayleigh {
+                    Some(r) => [r.mass, r.stiffness],
+                    None => [0.0; 2],
+                },
+            });
+        }
+        Ok(BuiltBodies {
+            bodies,
+            links,
+            materials,
+            densities,
+        })
+    }
+
+    /// What acts on the bodies and joins them, and the steps.
+    fn attach(&self, built: &Assembled) -> Result<Attached, Error> {
+        let &Assembled {
+            mesh,
+            space,
+            dofs,
+            bodies,
+            links,
+            frames,
+            densities,
+            sets,
+            timeline,
+            cuts,
+        } = built;
+        let rigid = built.rigid();
+        let masses = masses(self, sets, &rigid)?;
+        let domain = Domain {
+            masses: &masses,
+            mesh,
+            space,
+            densities,
+            links,
+        };
+        let (mut loads, springs) = loads(self, sets, &domain, timeline, bodies)?;
+        let ground = Ground { mesh, space, links };
+        let (mut couplings, leads) = couplings::build(self, sets, ground, timeline)?;
+        let supports = supports(self, sets, &rigid, timeline)?;
+        let steps = timeline.steps(self, schedules::contact_at(self, &couplings));
+        couplings::refuse_prescribed_stops(&couplings, &supports, links, &steps)?;
+        let said = references::Said {
+            bodies,
+            links,
+            couplings: &couplings,
+            supports: &supports,
+            springs: &springs,
+            masses: &masses,
+            loads: &loads,
+            steps: &steps,
+            frames,
+            references: self.reference.keys().cloned().collect(),
+        };
+        let corotations = turning::corotations(self, mesh, bodies, dofs);
+        turning::refuse(self, &said, &corotations)?;
+        let references = references::build(self, &said)?;
+        let followers = references::followers(
+            &mut couplings,
+            &leads,
+            &references,
+            (links, &supports, &springs, &masses),
+            &steps,
+        );
+        references::spread(&mut loads, &followers);
+        references::refuse_massless(&couplings, &references, links, &supports, &masses, &steps)?;
+        couplings.extend(pretensions::build(self, cuts, mesh, space, timeline)?);
+        Ok(Attached {
+            loads,
+            springs,
+            masses,
+            couplings,
+            supports,
+            steps,
+            references,
+            followers,
+            corotations,
+        })
+    }
+
+    /// What is reported, and how it is judged.
+    fn reports(&self, probes: Vec<Probe>) -> ReportPlan {
+        let output = &self.output;
+        let fatigue = output.fatigue.as_ref();
+        let checkpoint = &output.checkpoint;
+        ReportPlan {
+            probes,
+            output: OutputPlan {
+                every: output.every,
+                times: output.times.clone(),
+                frd: output.frd.encoding(),
+                history_every: output.history_every,
+                fatigue: fatigue.map_or(Vec::new(), |f| f.criteria.clone()),
+                fatigue_depth: fatigue.and_then(|f| f.depth),
+                checkpoint: (checkpoint.increments, 60.0 * checkpoint.minutes),
+            },
+            quality: self.quality,
+        }
+    }
+
+    /// How increments are solved.
+    fn solution(&self) -> SolutionPlan {
+        let solver = &self.solver;
+        SolutionPlan {
+            settings: Settings {
+                tolerance: solver.tolerance,
+                max_iterations: solver.max_iterations,
+                line_search: solver.line_search,
+                krylov_patience: solver.linear.patience,
+                linear_tolerance: solver.linear.tolerance,
+            },
+            method: solver.method,
+            engine: solver.engine.clone(),
+            energy_limit: solver.energy_limit,
+            follow: solver.follow_loose_bodies,
+            largest_change: solver.largest_change.unwrap_or(f64::INFINITY),
+        }
+    }
+
     /// The model with some points of the mesh moved.
     fn build_moved(
         &self,
@@ -109,50 +326,18 @@ impl Problem {
             points: hidden + 2 * self.reference.len(),
         };
         let referred = references::numbered(self, hidden);
-        let mut bodies = Vec::new();
-        let mut links = Vec::new();
-        let mut materials = Vec::new();
-        let mut densities = vec![0.0; mesh.blocks.len()];
-        for part in built.bodies {
-            let formulation = self.body[&part.name].formulation;
-            for p in &part.parts {
-                densities[p.block] = p.density;
-            }
-            let elastic = Elastic::new(&part.name, mesh.clone(), space, formulation, part.parts)
-                .map_err(|e| problem_error(vec![e.under(&format!("body.{}", part.name))]))?;
-            let elastic = match self.body[&part.name].rotation {
-                BodyRotation::Corotational => elastic.corotational(),
-                _ => elastic,
-            };
-            materials.push(part.materials);
-            let part_name = part.name.clone();
-            let rotation = &self.body[&part_name].rotation;
-            let rigid = self.body[&part_name].rigid.then(|| {
-                let hidden = mesh.points.len() + 2 * links.len();
-                let (link, rigid) =
-                    rigid::link(&elastic, part.points.clone(), hidden, links.len(), rotation);
-                links.push(link);
-                rigid
-            });
-            bodies.push(Body {
-                name: part.name,
-                rigid,
-                points: part.points,
-                blocks: part.blocks,
-                pieces: part.pieces,
-                elastic,
-                rayleigh: match self.body[&part_name].rayleigh {
-                    Some(r) => [r.mass, r.stiffness],
-                    None => [0.0; 2],
-                },
-            });
-        }
+        let BuiltBodies {
+            mut bodies,
+            links: mut all_links,
+            materials,
+            densities,
+        } = self.bodies(built.bodies, &mesh, space)?;
         let inside = built.cuts.iter().flat_map(|c| c.near.iter().chain(&c.far));
         let inside: BTreeSet<FacetRef> = inside.copied().collect();
         let timeline = Timeline::new(self);
         let sets = Sets::new(self, &mesh, &bodies, inside.clone(), referred.clone())?;
-        links.extend(references::links(self, &sets, &mesh, space)?);
-        let links = Links::new(dofs, links);
+        all_links.extend(references::links(self, &sets, &mesh, space)?);
+        let links = Links::new(dofs, all_links);
         let frames = Arc::new(turning::frames(self, &sets, &bodies, &links));
         let temperatures = heat::temperatures(self, &sets, &mesh, space, &timeline)?;
         let mut heat = None;
@@ -162,61 +347,30 @@ impl Problem {
             heat = Some(Heat::new(warmed.1));
         }
         let sets = Sets::new(self, &mesh, &bodies, inside, referred)?;
-        let rigid = RigidBodies {
-            links: &links,
-            bodies: &bodies,
+        let built = Assembled {
+            mesh: &mesh,
+            space,
             dofs,
-        };
-        let fatigue = self.output.fatigue.as_ref();
-        let masses = masses(self, &sets, &rigid)?;
-        let domain = Domain {
-            masses: &masses,
-            mesh: &mesh,
-            space,
-            densities: &densities,
-            links: &links,
-        };
-        let (mut loads, springs) = loads(self, &sets, &domain, &timeline, &bodies)?;
-        let ground = Ground {
-            mesh: &mesh,
-            space,
-            links: &links,
-        };
-        let (mut couplings, leads) = couplings::build(self, &sets, ground, &timeline)?;
-        let supports = supports(self, &sets, &rigid, &timeline)?;
-        let steps = timeline.steps(self, schedules::contact_at(self, &couplings));
-        couplings::refuse_prescribed_stops(&couplings, &supports, &links, &steps)?;
-        let said = references::Said {
             bodies: &bodies,
             links: &links,
-            couplings: &couplings,
-            supports: &supports,
-            springs: &springs,
-            masses: &masses,
-            loads: &loads,
-            steps: &steps,
             frames: &frames,
-            references: self.reference.keys().cloned().collect(),
+            densities: &densities,
+            sets: &sets,
+            timeline: &timeline,
+            cuts: &built.cuts,
         };
-        let corotations = turning::corotations(self, &mesh, &bodies, dofs);
-        turning::refuse(self, &said, &corotations)?;
-        let references = references::build(self, &said)?;
-        let followers = references::followers(
-            &mut couplings,
-            &leads,
-            &references,
-            (&links, &supports, &springs, &masses),
-            &steps,
-        );
-        references::spread(&mut loads, &followers);
-        references::refuse_massless(&couplings, &references, &links, &supports, &masses, &steps)?;
-        couplings.extend(pretensions::build(
-            self,
-            &built.cuts,
-            &mesh,
-            space,
-            &timeline,
-        )?);
+        let Attached {
+            loads,
+            springs,
+            masses,
+            couplings,
+            supports,
+            steps,
+            references,
+            followers,
+            corotations,
+        } = self.attach(&built)?;
+        let rigid = built.rigid();
         let mut held_nodes = held::HeldNodes::new(&links, dofs, &supports, &couplings);
         let couplings = Couplings::new(couplings, space.dim());
         let held = mirrors::Held::new(&links, dofs, &supports, space);
@@ -256,36 +410,8 @@ impl Problem {
                 initials,
             },
             steps,
-            reports: ReportPlan {
-                probes,
-                output: OutputPlan {
-                    every: self.output.every,
-                    times: self.output.times.clone(),
-                    frd: self.output.frd.encoding(),
-                    history_every: self.output.history_every,
-                    fatigue: fatigue.map_or(Vec::new(), |f| f.criteria.clone()),
-                    fatigue_depth: fatigue.and_then(|f| f.depth),
-                    checkpoint: (
-                        self.output.checkpoint.increments,
-                        60.0 * self.output.checkpoint.minutes,
-                    ),
-                },
-                quality: self.quality,
-            },
-            solution: SolutionPlan {
-                settings: Settings {
-                    tolerance: self.solver.tolerance,
-                    max_iterations: self.solver.max_iterations,
-                    line_search: self.solver.line_search,
-                    krylov_patience: self.solver.linear.patience,
-                    linear_tolerance: self.solver.linear.tolerance,
-                },
-                method: self.solver.method,
-                engine: self.solver.engine.clone(),
-                energy_limit: self.solver.energy_limit,
-                follow: self.solver.follow_loose_bodies,
-                largest_change: self.solver.largest_change.unwrap_or(f64::INFINITY),
-            },
+            reports: self.reports(probes),
+            solution: self.solution(),
             unused: unused::tables(self),
             waves: relief::waves(self),
             mesh,
