@@ -13,8 +13,8 @@ use serde_json::{Value, json};
 use stickslip::Error;
 use stickslip::error::IoError;
 use stickslip::io::{drop_leftovers, own, write_atomically};
-use stickslip::lease::{self, Asked, Lease, Waiting};
 use stickslip::linear::Digest;
+use stickslip::owner::{self, Holder, Owner, Refused, Waiting};
 use stickslip::results::digest_of;
 
 use super::plan::Plan;
@@ -293,7 +293,8 @@ impl Shard {
 
     /// Who is at it.
     pub fn holder(&self) -> Option<String> {
-        Lease::holder(&self.folder.join(LEASE))
+        let holder = Holder::named_in(&self.folder.join(LEASE));
+        holder.map(|holder| holder.to_string())
     }
 
     /// The file of its rows.
@@ -343,7 +344,7 @@ pub struct Work {
     pub shard: Shard,
     /// The process that was at it before, and was killed.
     pub dead: Option<String>,
-    _lease: Option<Lease>,
+    _lease: Owner,
 }
 
 impl Work {
@@ -432,32 +433,30 @@ fn take(
     path: &Path,
     folder: &Path,
     waits: &dyn Fn(&str),
-) -> Result<(Option<Lease>, Option<String>), Failure> {
+) -> Result<(Owner, Option<String>), Failure> {
     let mut waiting = Waiting::default();
     let mut before = None;
     loop {
-        match Lease::ask(path) {
-            Asked::Ours(lease) => {
-                lease::drop_leftovers(path);
-                return Ok((Some(lease), before));
+        let holder = match Owner::lease(path) {
+            Ok(lease) => {
+                owner::drop_leftovers(path);
+                return Ok((lease, before));
             }
-            Asked::Nobodys => {
+            Err(Refused::Io(_)) => {
                 let e = std::io::Error::other("it cannot be written");
                 return Err(Error::io(path, e).into());
             }
-            Asked::Theirs => {}
-        }
-        let holder = Lease::holder(path);
+            Err(Refused::Taken(holder)) => holder,
+        };
         if waiting.look(path) {
-            let holder = holder.unwrap_or_default();
             return Err(Failure::Arguments(
                 format!("{}: {holder} is at this shard", folder.display()),
                 "wait for it, or end it: the shard then goes on with the same command".into(),
             ));
         }
-        if let Some(holder) = holder
-            && before.as_ref() != Some(&holder)
-        {
+        let known = holder.process > 0;
+        let holder = holder.to_string();
+        if known && before.as_ref() != Some(&holder) {
             waits(&holder);
             before = Some(holder);
         }
