@@ -3,12 +3,10 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use stickslip::Error;
 use stickslip::results::FileClaim;
 
-use super::effort::EffortTable;
 use super::plan::{folder_of_run, runs};
 use super::shard::{Done, Shard};
 use super::table::Table;
@@ -58,16 +56,7 @@ pub fn merge(
     spare_inputs(first, &table.path)?;
     table.try_file()?;
     let _claim = FileClaim::take(&table.path)?;
-    let mut effort = EffortTable::beside(&table.path);
-    let all = rows.len();
-    let failed = rows.values().filter(|(_, done)| done.failed).count();
-    let poor = rows.values().any(|(_, done)| done.poor);
-    for (_, done) in rows.into_values() {
-        table.add_quantities(&done.names);
-        table.add(done.row.clone());
-        effort.add(done.effort.clone());
-    }
-    effort.write()?;
+    rows.values().for_each(|(_, done)| table.add(done));
     table.write()?;
     let parts = match shards.len() {
         1 => "1 shard".to_string(),
@@ -75,18 +64,10 @@ pub fn merge(
     };
     tell(&format!(
         "{} of {parts}; table in {}",
-        runs(all),
+        runs(rows.len()),
         table.path.display()
     ));
-    match failed {
-        0 if poor => Ok(ExitCode::from(crate::failure::CHECK)),
-        0 => Ok(ExitCode::SUCCESS),
-        failed => Err(Failure::Runs {
-            failed,
-            all,
-            table: table.path,
-        }),
-    }
+    super::ended(table.rows().iter(), table.path.clone())
 }
 
 /// Refuses to write over a file that the sweep reads.

@@ -1,18 +1,17 @@
 //! A part of a sweep, for one of several processes on one machine or many: which runs it has, and the folder that says how far it has come.
 //!
-//! The folder has `shard.json`, what the sweep is, by which one that goes on or is merged knows that it is the same, and `rows.jsonl`, a line a run, each
-//! written as a whole. What is there counts: a shard that was killed goes on with what is not.
+//! The folder has `shard.json`, what the sweep is, by which one that goes on or is merged knows that it is the same, and a file a run that is over. What is
+//! there counts: a shard that was killed goes on with what is not. A sweep in one process has such a folder as long as it goes on.
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use stickslip::Error;
 use stickslip::error::IoError;
-use stickslip::io::{drop_leftovers, own, write_atomically};
+use stickslip::io::write_atomically;
 use stickslip::linear::Digest;
 use stickslip::owner::{self, Holder, Owner, Refused, Waiting};
 use stickslip::results::digest_of;
@@ -24,9 +23,6 @@ use crate::failure::Failure;
 
 /// The file that says what the sweep is.
 const RECORD: &str = "shard.json";
-
-/// The file with a line a run.
-const ROWS: &str = "rows.jsonl";
 
 /// The file that says who is at it.
 const LEASE: &str = "shard.lease";
@@ -219,9 +215,6 @@ pub struct Done {
     pub row: Row,
     /// The columns of its history, in order; none if it did not come so far.
     pub names: Vec<String>,
-    /// Whether it failed, or did not pass the quality gate.
-    pub failed: bool,
-    pub poor: bool,
     /// Its row in the table of what runs took.
     pub effort: String,
     /// The kind of processor: last digits may depend on it.
@@ -244,19 +237,16 @@ impl Done {
         value
     }
 
-    /// The run and what is known of it; `None` of a line that is damaged, were it by one digit.
-    fn from_json(line: &str) -> Option<(usize, Done)> {
-        let mut value: Value = serde_json::from_str(line).ok()?;
+    /// What is known of a run; `None` of a text that is of another one, or damaged, were it by one digit.
+    fn from_json(text: &str, run: usize) -> Option<Done> {
+        let mut value: Value = serde_json::from_str(text).ok()?;
         let said = value.as_object_mut()?.remove("digest")?;
-        if said.as_str()? != digest(&value) {
-            return None;
-        }
-        let run = usize::try_from(value["run"].as_u64()?).ok()?;
-        Some((run.checked_sub(1)?, Done::deserialize(&value).ok()?))
+        let sound = said.as_str()? == digest(&value) && value["run"] == json!(run + 1);
+        sound.then(|| Done::deserialize(&value).ok())?
     }
 }
 
-/// The folder of a shard as it was read.
+/// A part of a sweep with what is done of it, as its folder has it.
 #[derive(Debug)]
 pub struct Shard {
     pub folder: PathBuf,
@@ -284,7 +274,7 @@ impl Shard {
             fault(&path, "this is no record of a shard that this version can read: make the shard anew in another folder")
         })?;
         Ok(Shard {
-            done: rows(folder, &sweep, share)?,
+            done: runs(folder, share.runs(sweep.count()))?,
             folder: folder.to_path_buf(),
             sweep,
             share,
@@ -297,100 +287,76 @@ impl Shard {
         holder.map(|holder| holder.to_string())
     }
 
-    /// The file of its rows.
-    pub fn rows_file(&self) -> PathBuf {
-        self.folder.join(ROWS)
-    }
-
     /// Why it cannot be merged with another; `None` if it can.
     pub fn foreign_to(&self, other: &Shard) -> Option<String> {
         other.sweep.differs(&self.sweep)
     }
 }
 
-/// The lines of a shard; one that was cut as the process that wrote it was killed is none.
-fn rows(folder: &Path, sweep: &Sweep, share: Share) -> Result<BTreeMap<usize, Done>, Error> {
-    let path = folder.join(ROWS);
-    let text = match fs::read(&path) {
-        Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
-        Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(BTreeMap::new()),
-        Err(e) => return Err(Error::io(&path, e)),
-    };
+/// The runs of a shard that are over.
+fn runs(folder: &Path, own: Vec<usize>) -> Result<BTreeMap<usize, Done>, Error> {
     let mut done = BTreeMap::new();
-    let count = sweep.count();
-    let has = |run: usize| run < count && run % share.of == share.index - 1;
-    for (i, line) in whole(&text).lines().enumerate() {
-        let read = Done::from_json(line).filter(|(run, _)| has(*run));
-        let (run, row) = read.ok_or_else(|| {
-            let what = format!(
-                "line {} is no row of this shard: remove the folder, and make the shard anew",
-                i + 1
-            );
-            fault(&path, &what)
-        })?;
-        done.insert(run, row);
+    for run in own {
+        let path = file_of_run(folder, run);
+        match fs::read(&path) {
+            Ok(bytes) => {
+                let read = Done::from_json(&String::from_utf8_lossy(&bytes), run);
+                let what = "this is no run of this shard: remove the file, and it is made anew";
+                done.insert(run, read.ok_or_else(|| fault(&path, what))?);
+            }
+            Err(e) if e.kind() == std::io::ErrorKind::NotFound => {}
+            Err(e) => return Err(Error::io(&path, e)),
+        }
     }
     Ok(done)
 }
 
-/// The lines that have an end.
-fn whole(text: &str) -> &str {
-    &text[..text.rfind('\n').map_or(0, |end| end + 1)]
+fn file_of_run(folder: &Path, run: usize) -> PathBuf {
+    folder.join(format!("{:04}.json", run + 1))
 }
 
-/// A shard at which this process is.
-#[derive(Debug)]
-pub struct Work {
-    pub shard: Shard,
-    /// The process that was at it before, and was killed.
-    pub dead: Option<String>,
-    _lease: Owner,
+/// Removes what has such names from a folder of a shard, in which nobody else writes.
+fn remove(folder: &Path, names: impl Fn(&str) -> bool) -> Result<(), Error> {
+    for entry in fs::read_dir(folder).map_err(|e| Error::io(folder, e))? {
+        let entry = entry.map_err(|e| Error::io(folder, e))?;
+        if names(&entry.file_name().to_string_lossy()) {
+            fs::remove_file(entry.path()).map_err(|e| Error::io(&entry.path(), e))?;
+        }
+    }
+    Ok(())
 }
 
-impl Work {
-    /// Takes the folder of a shard, a new one or one that goes on. While it is not known whether another process is at it `waits` is told who.
+impl Shard {
+    /// A new one, or one that goes on. Nobody else may be at it.
     ///
     /// # Errors
-    /// [`Failure`]: another process is at it; it is of another sweep; what the system says.
+    /// [`Error::Io`]; within, what it differs in from one that was begun in this folder.
     pub fn begin(
         folder: &Path,
         sweep: Sweep,
         share: Share,
-        waits: &dyn Fn(&str),
-    ) -> Result<Work, Failure> {
+    ) -> Result<Result<Shard, String>, Error> {
         fs::create_dir_all(folder).map_err(|e| Error::io(folder, e))?;
-        let (lease, dead) = take(&folder.join(LEASE), folder, waits)?;
-        let record = folder.join(RECORD);
-        drop_leftovers(&record)?;
-        let shard = match Shard::is_one(folder) {
-            true => {
-                let shard = Shard::read(folder)?;
-                if shard.share != share {
-                    let what = format!("it is that of shard {}", shard.share);
-                    return Err(another(folder, &what));
-                }
-                if let Some(what) = sweep.differs(&shard.sweep) {
-                    return Err(another(folder, &what));
-                }
-                shard
+        // What was being written when it was killed.
+        remove(folder, |name| {
+            name.starts_with('.') && name.ends_with(".tmp")
+        })?;
+        if Shard::is_one(folder) {
+            let shard = Shard::read(folder)?;
+            if shard.share != share {
+                return Ok(Err(format!("it is that of shard {}", shard.share)));
             }
-            false => {
-                let text = format!("{:#}\n", sweep.to_json(share));
-                write_atomically(&record, text.as_bytes())?;
-                Shard {
-                    folder: folder.to_path_buf(),
-                    sweep,
-                    share,
-                    done: BTreeMap::new(),
-                }
-            }
-        };
-        shard.mend()?;
-        Ok(Work {
-            shard,
-            dead,
-            _lease: lease,
-        })
+            let differs = sweep.differs(&shard.sweep);
+            return Ok(differs.map_or(Ok(shard), Err));
+        }
+        let text = format!("{:#}\n", sweep.to_json(share));
+        write_atomically(&folder.join(RECORD), text.as_bytes())?;
+        Ok(Ok(Shard {
+            folder: folder.to_path_buf(),
+            sweep,
+            share,
+            done: BTreeMap::new(),
+        }))
     }
 
     /// A run is over.
@@ -398,42 +364,38 @@ impl Work {
     /// # Errors
     /// [`Error::Io`].
     pub fn push(&mut self, run: usize, done: Done) -> Result<(), Error> {
-        let path = self.shard.rows_file();
-        let line = format!("{}\n", done.to_json(run));
-        let file = own::open(&path, own::Use::AppendOrMake);
-        let written = file.and_then(|mut file| {
-            file.write_all(line.as_bytes())?;
-            file.sync_data()
-        });
-        written.map_err(|e| Error::io(&path, e))?;
-        self.shard.done.insert(run, done);
+        let path = file_of_run(&self.folder, run);
+        write_atomically(&path, format!("{}\n", done.to_json(run)).as_bytes())?;
+        // A sweep in one process is soon made anew after a machine has failed.
+        if self.share.of > 1 {
+            let written = fs::File::open(&path).and_then(|file| file.sync_data());
+            written.map_err(|e| Error::io(&path, e))?;
+        }
+        self.done.insert(run, done);
+        Ok(())
+    }
+
+    /// Removes it.
+    ///
+    /// # Errors
+    /// [`Error::Io`].
+    pub fn remove(folder: &Path) -> Result<(), Error> {
+        if Shard::is_one(folder) {
+            remove(folder, |name| name.ends_with(".json"))?;
+            // Unless there is something of somebody else.
+            let _ = fs::remove_dir(folder);
+        }
         Ok(())
     }
 }
 
-impl Shard {
-    /// Takes away a line that was cut.
-    fn mend(&self) -> Result<(), Error> {
-        let path = self.rows_file();
-        drop_leftovers(&path)?;
-        let Ok(text) = fs::read(&path) else {
-            return Ok(());
-        };
-        let end = text.iter().rposition(|byte| *byte == b'\n');
-        let end = end.map_or(0, |end| end + 1);
-        match end == text.len() {
-            true => Ok(()),
-            false => write_atomically(&path, &text[..end]),
-        }
-    }
-}
-
-/// The lease of a shard, and who had it before and is dead.
-fn take(
-    path: &Path,
-    folder: &Path,
-    waits: &dyn Fn(&str),
-) -> Result<(Owner, Option<String>), Failure> {
+/// The lease of the folder of a shard, and who had it before and is dead. While it is not known whether another process is at it `waits` is told who.
+///
+/// # Errors
+/// [`Failure`]: another process is at it; what the system says.
+pub fn take(folder: &Path, waits: &dyn Fn(&str)) -> Result<(Owner, Option<String>), Failure> {
+    fs::create_dir_all(folder).map_err(|e| Error::io(folder, e))?;
+    let path = &folder.join(LEASE);
     let mut waiting = Waiting::default();
     let mut before = None;
     loop {
@@ -464,14 +426,15 @@ fn take(
     }
 }
 
-fn another(folder: &Path, what: &str) -> Failure {
+/// Why a shard does not go on that was begun in this folder.
+pub fn another(folder: &Path, what: &str) -> Failure {
     Failure::Arguments(
         format!("{}: this shard was begun by another sweep: {what}", folder.display()),
         "bring back what it was begun with, choose another table with -o, or remove the folder to begin anew".into(),
     )
 }
 
-fn fault(path: &Path, message: &str) -> Error {
+pub fn fault(path: &Path, message: &str) -> Error {
     Error::Io(IoError {
         file: path.to_path_buf(),
         message: message.into(),
@@ -565,25 +528,25 @@ mod tests {
                     .collect(),
             },
             names: vec!["q1".into(), "q0".into()],
-            failed: true,
-            poor: false,
             effort: "1,0.5".into(),
             processor: "x".into(),
         };
         let line = done.to_json(6).to_string();
         assert!(!line.contains('\n'));
-        let (run, back) = Done::from_json(&line).unwrap();
-        assert_eq!((run, &back), (6, &done));
+        let back = Done::from_json(&line, 6).unwrap();
+        assert_eq!(&back, &done);
+        assert!(Done::from_json(&line, 5).is_none());
         assert_eq!(back.row.last["q1"].to_bits(), (-0.0_f64).to_bits());
         let mut unknown = Done::default();
         unknown.row.last.insert("q".into(), f64::NAN);
-        let (_, back) = Done::from_json(&unknown.to_json(0).to_string()).unwrap();
+        let back = Done::from_json(&unknown.to_json(0).to_string(), 0).unwrap();
         assert!(back.row.last["q"].is_nan() && back.row.counts.is_none());
-        assert!(Done::from_json(&line[..line.len() - 1]).is_none());
+        assert!(Done::from_json(&line[..line.len() - 1], 6).is_none());
         // A digit that was changed is found as well as a line that was cut.
         for (from, to) in [("e-324", "e-323"), ("\"run\":7", "\"run\":8"), ("q1", "q2")] {
             assert!(line.contains(from), "{line}");
-            assert!(Done::from_json(&line.replace(from, to)).is_none(), "{from}");
+            let other = line.replace(from, to);
+            assert!(Done::from_json(&other, 6).is_none(), "{from}");
         }
     }
 
