@@ -51,7 +51,7 @@ pub fn merge(
     }
     tell_processors(&rows, tell);
 
-    let axes = first.sweep.axes.iter().map(|axis| axis.path.clone());
+    let axes = first.sweep.plan.axes.iter().map(|axis| axis.path.clone());
     let mut table = Table::new(output, axes.collect(), &first.sweep.columns);
     spare_inputs(first, &table.path)?;
     table.try_file()?;
@@ -168,7 +168,7 @@ fn one_row_a_run(shards: &[Shard]) -> Result<Rows<'_>, Failure> {
 
 /// Refuses to make half of a table: says which runs are missing, and whose they are.
 fn refuse_missing(shards: &[Shard], rows: &Rows) -> Result<(), Failure> {
-    let count = shards.first().map_or(0, |shard| shard.sweep.count());
+    let count = shards.first().map_or(0, |shard| shard.sweep.plan.count());
     let missing: Vec<usize> = (0..count).filter(|run| !rows.contains_key(run)).collect();
     if missing.is_empty() {
         return Ok(());

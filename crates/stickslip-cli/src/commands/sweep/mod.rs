@@ -356,7 +356,7 @@ impl Runs<'_> {
         let mut found = Vec::new();
         for bracket in critical::brackets(table.rows(), quantity) {
             let chosen = others.iter().zip(&bracket.others);
-            let mut fixed = self.plan.fixed().to_vec();
+            let mut fixed = self.plan.fixed.clone();
             fixed.extend(chosen.map(|(axis, value)| format!("{axis}={value}")));
             let mut run = |value: f64| {
                 let mut overrides = fixed.clone();

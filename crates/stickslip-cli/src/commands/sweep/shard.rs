@@ -18,7 +18,6 @@ use stickslip::results::digest_of;
 
 use super::plan::Plan;
 use super::table::Row;
-use super::values::Axis;
 use crate::failure::Failure;
 
 /// The file that says what the sweep is.
@@ -88,12 +87,9 @@ pub struct Sweep {
     pub version: String,
     /// Names and digests of what is read, in order.
     pub files: Vec<(String, String)>,
-    /// What differs.
-    pub axes: Vec<Axis>,
-    /// Whether axes run side by side.
-    pub zip: bool,
-    /// What is the same in all runs.
-    pub fixed: Vec<String>,
+    /// Its runs.
+    #[serde(flatten)]
+    pub plan: Plan,
     /// The columns that were chosen.
     pub columns: Vec<String>,
     /// Whether the result files of runs are kept.
@@ -122,9 +118,7 @@ impl Sweep {
         Ok(Sweep {
             version: env!("CARGO_PKG_VERSION").into(),
             files: known,
-            axes: plan.axes.clone(),
-            zip: plan.zip,
-            fixed: plan.fixed().to_vec(),
+            plan: plan.clone(),
             columns: columns.to_vec(),
             results,
         })
@@ -139,14 +133,6 @@ impl Sweep {
         Ok(self.files.iter().any(|(_, known)| *known == digest))
     }
 
-    /// Number of its runs.
-    pub fn count(&self) -> usize {
-        match self.zip {
-            true => self.axes.first().map_or(0, |axis| axis.values.len()),
-            false => self.axes.iter().map(|axis| axis.values.len()).product(),
-        }
-    }
-
     /// The first thing in which another differs, as what that other has.
     fn differs(&self, other: &Sweep) -> Option<String> {
         if self.version != other.version {
@@ -156,14 +142,18 @@ impl Sweep {
         if let Some((name, _)) = other.files.iter().find(same) {
             return Some(format!("its file {name} is another"));
         }
+        let (plan, of_other) = (&self.plan, &other.plan);
         let parts = [
             (self.files != other.files, "its files are others"),
             (
-                self.axes != other.axes,
+                plan.axes != of_other.axes,
                 "its axes or their values are others",
             ),
-            (self.zip != other.zip, "one has --zip and the other not"),
-            (self.fixed != other.fixed, "its values of --fix are others"),
+            (plan.zip != of_other.zip, "one has --zip and the other not"),
+            (
+                plan.fixed != of_other.fixed,
+                "its values of --fix are others",
+            ),
             (
                 self.columns != other.columns,
                 "its values of --column are others",
@@ -274,7 +264,7 @@ impl Shard {
             fault(&path, "this is no record of a shard that this version can read: make the shard anew in another folder")
         })?;
         Ok(Shard {
-            done: runs(folder, share.runs(sweep.count()))?,
+            done: runs(folder, share.runs(sweep.plan.count()))?,
             folder: folder.to_path_buf(),
             sweep,
             share,
@@ -458,6 +448,7 @@ pub fn processor() -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::values::Axis;
     use super::*;
 
     #[test]
@@ -500,12 +491,14 @@ mod tests {
         Sweep {
             version: "1".into(),
             files: vec![("a.toml".into(), "0f".into())],
-            axes: vec![Axis {
-                path: "a.'b'".into(),
-                values: vec!["1".into(), "\"x\"".into()],
-            }],
-            zip: false,
-            fixed: vec!["c=1".into()],
+            plan: Plan {
+                axes: vec![Axis {
+                    path: "a.'b'".into(),
+                    values: vec!["1".into(), "\"x\"".into()],
+                }],
+                zip: false,
+                fixed: vec!["c=1".into()],
+            },
             columns: Vec::new(),
             results: true,
         }
@@ -558,11 +551,11 @@ mod tests {
             (|s| s.version = "2".into(), "it is of version 2"),
             (|s| s.files[0].1 = "1".into(), "its file a.toml is another"),
             (
-                |s| s.axes[0].values[0] = "3".into(),
+                |s| s.plan.axes[0].values[0] = "3".into(),
                 "its axes or their values are others",
             ),
-            (|s| s.zip = true, "one has --zip and the other not"),
-            (|s| s.fixed.clear(), "its values of --fix are others"),
+            (|s| s.plan.zip = true, "one has --zip and the other not"),
+            (|s| s.plan.fixed.clear(), "its values of --fix are others"),
             (|s| s.results = false, "one has --results and the other not"),
         ];
         for (change, what) in changes {

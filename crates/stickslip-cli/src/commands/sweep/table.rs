@@ -249,12 +249,13 @@ impl Table {
     }
 }
 
-fn line(cells: impl Iterator<Item = String>) -> String {
+/// A line of a table.
+pub fn line(cells: impl Iterator<Item = String>) -> String {
     let cells: Vec<String> = cells.map(quoted).collect();
     cells.join(",") + "\n"
 }
 
-pub fn quoted(cell: String) -> String {
+fn quoted(cell: String) -> String {
     if cell.contains([',', '"', '\n', '\r', '#']) {
         format!("\"{}\"", cell.replace('"', "\"\""))
     } else {
