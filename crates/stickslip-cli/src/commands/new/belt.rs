@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use super::quantity;
+use super::quantity::{self, FORCE, LINE_LOAD, MASS, SPEED};
 use super::target::Target;
 use super::written::{Values, Written};
 use crate::failure::Failure;
@@ -10,16 +10,16 @@ use crate::style::digits;
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Mass.
-    #[arg(long, value_name = "MASS", default_value = "1kg", value_parser = quantity::mass, allow_hyphen_values = true)]
+    #[arg(long, value_name = "MASS", default_value = "1kg", value_parser = quantity::of(MASS), allow_hyphen_values = true)]
     mass: f64,
     /// Force that presses it on the belt.
-    #[arg(long, value_name = "FORCE", default_value = "10N", value_parser = quantity::force, allow_hyphen_values = true)]
+    #[arg(long, value_name = "FORCE", default_value = "10N", value_parser = quantity::of(FORCE), allow_hyphen_values = true)]
     load: f64,
     /// Stiffness of the spring.
-    #[arg(long, value_name = "FORCE/LENGTH", default_value = "100N/m", value_parser = quantity::line_load, allow_hyphen_values = true)]
+    #[arg(long, value_name = "FORCE/LENGTH", default_value = "100N/m", value_parser = quantity::of(LINE_LOAD), allow_hyphen_values = true)]
     stiffness: f64,
     /// Velocity of the belt.
-    #[arg(long, value_name = "VELOCITY", default_value = "0.1m/s", value_parser = quantity::speed, allow_hyphen_values = true)]
+    #[arg(long, value_name = "VELOCITY", default_value = "0.1m/s", value_parser = quantity::of(SPEED), allow_hyphen_values = true)]
     speed: f64,
     /// Coefficient of friction at rest.
     #[arg(long = "static", value_name = "MU", default_value = "0.5", value_parser = quantity::friction)]

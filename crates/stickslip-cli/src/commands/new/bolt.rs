@@ -1,6 +1,6 @@
 use std::f64::consts::PI;
 
-use super::quantity;
+use super::quantity::{self, FORCE, LENGTH, STRESS};
 use super::target::Target;
 use super::written::{MM, MPA, Values, Written};
 use crate::failure::Failure;
@@ -10,28 +10,28 @@ use crate::style::digits;
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Diameter of the shank.
-    #[arg(long, value_name = "LENGTH", default_value = "10mm", value_parser = quantity::length, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", default_value = "10mm", value_parser = quantity::of(LENGTH), allow_hyphen_values = true)]
     diameter: f64,
     /// Force to which it is tightened.
-    #[arg(long, value_name = "FORCE", default_value = "20kN", value_parser = quantity::force, allow_hyphen_values = true)]
+    #[arg(long, value_name = "FORCE", default_value = "20kN", value_parser = quantity::of(FORCE), allow_hyphen_values = true)]
     preload: f64,
     /// Length that it grips.
-    #[arg(long, value_name = "LENGTH", default_value = "40mm", value_parser = quantity::length, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", default_value = "40mm", value_parser = quantity::of(LENGTH), allow_hyphen_values = true)]
     grip: f64,
     /// Outer diameter of the sleeve; two and a half times that of the bolt if not given.
-    #[arg(long, value_name = "LENGTH", value_parser = quantity::length, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", value_parser = quantity::of(LENGTH), allow_hyphen_values = true)]
     sleeve: Option<f64>,
     /// Force that pulls at the sleeve once the bolt is tight.
-    #[arg(long, value_name = "FORCE", default_value = "5kN", value_parser = quantity::force, allow_hyphen_values = true)]
+    #[arg(long, value_name = "FORCE", default_value = "5kN", value_parser = quantity::of(FORCE), allow_hyphen_values = true)]
     pull: f64,
     /// Young's modulus of bolt and sleeve.
-    #[arg(long, value_name = "STRESS", default_value = "210GPa", value_parser = quantity::stress, allow_hyphen_values = true)]
+    #[arg(long, value_name = "STRESS", default_value = "210GPa", value_parser = quantity::of(STRESS), allow_hyphen_values = true)]
     young: f64,
     /// Poisson's ratio of both.
     #[arg(long, value_name = "NU", default_value = "0.3", value_parser = quantity::poisson)]
     poisson: f64,
     /// Yield stress of the bolt; property class 8.8 has 640 MPa (ISO 898-1).
-    #[arg(long = "yield", value_name = "STRESS", default_value = "640MPa", value_parser = quantity::stress, allow_hyphen_values = true)]
+    #[arg(long = "yield", value_name = "STRESS", default_value = "640MPa", value_parser = quantity::of(STRESS), allow_hyphen_values = true)]
     strength: f64,
     #[command(flatten)]
     pub(super) target: Target,

@@ -2,7 +2,7 @@ use std::f64::consts::PI;
 
 use super::grid;
 use super::hertz::{Hertz, Materials, Shape};
-use super::quantity;
+use super::quantity::{self, LENGTH, LINE_LOAD, WEAR};
 use super::target::Target;
 use super::written::{MM, MPA, Values, Written};
 use crate::failure::Failure;
@@ -12,21 +12,21 @@ use crate::style::digits;
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Radius of the cylinder.
-    #[arg(long, value_name = "LENGTH", default_value = "6mm", value_parser = quantity::length, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", default_value = "6mm", value_parser = quantity::of(LENGTH), allow_hyphen_values = true)]
     radius: f64,
     /// Load per length.
-    #[arg(long, value_name = "LOAD", default_value = "18.5N/mm", value_parser = quantity::line_load, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LOAD", default_value = "18.5N/mm", value_parser = quantity::of(LINE_LOAD), allow_hyphen_values = true)]
     load: f64,
     #[command(flatten)]
     materials: Materials,
     /// How far the flat is driven to each side.
-    #[arg(long, value_name = "LENGTH", default_value = "25um", value_parser = quantity::length, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", default_value = "25um", value_parser = quantity::of(LENGTH), allow_hyphen_values = true)]
     amplitude: f64,
     /// Coefficient of friction.
     #[arg(long, value_name = "MU", default_value = "0.9", value_parser = quantity::friction)]
     friction: f64,
     /// Volume worn off each of both surfaces over load and path.
-    #[arg(long, value_name = "RATE", default_value = "2.4e-8/MPa", value_parser = quantity::wear, allow_hyphen_values = true)]
+    #[arg(long, value_name = "RATE", default_value = "2.4e-8/MPa", value_parser = quantity::of(WEAR), allow_hyphen_values = true)]
     wear: f64,
     /// Cycles.
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]

@@ -1,6 +1,6 @@
 use std::f64::consts::PI;
 
-use super::quantity;
+use super::quantity::{self, LENGTH, STRESS, TORQUE};
 use super::target::Target;
 use super::written::{MM, MPA, Values, Written};
 use crate::failure::Failure;
@@ -15,16 +15,16 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u32).range(5..=200))]
     wheel: u32,
     /// Module: pitch diameter over number of teeth.
-    #[arg(long, value_name = "LENGTH", default_value = "2mm", value_parser = quantity::length, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", default_value = "2mm", value_parser = quantity::of(LENGTH), allow_hyphen_values = true)]
     module: f64,
     /// Width of the teeth.
-    #[arg(long, value_name = "LENGTH", default_value = "10mm", value_parser = quantity::length, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", default_value = "10mm", value_parser = quantity::of(LENGTH), allow_hyphen_values = true)]
     width: f64,
     /// Torque that holds the wheel back.
-    #[arg(long, value_name = "TORQUE", default_value = "20Nm", value_parser = quantity::torque, allow_hyphen_values = true)]
+    #[arg(long, value_name = "TORQUE", default_value = "20Nm", value_parser = quantity::of(TORQUE), allow_hyphen_values = true)]
     torque: f64,
     /// Young's modulus of both.
-    #[arg(long, value_name = "STRESS", default_value = "210GPa", value_parser = quantity::stress, allow_hyphen_values = true)]
+    #[arg(long, value_name = "STRESS", default_value = "210GPa", value_parser = quantity::of(STRESS), allow_hyphen_values = true)]
     young: f64,
     /// Poisson's ratio of both.
     #[arg(long, value_name = "NU", default_value = "0.3", value_parser = quantity::poisson)]

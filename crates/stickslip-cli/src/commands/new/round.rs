@@ -2,7 +2,7 @@ use std::f64::consts::PI;
 
 use super::grid;
 use super::hertz::{Hertz, Materials, Shape};
-use super::quantity::{self, Load};
+use super::quantity::{self, LENGTH, Load};
 use super::target::Target;
 use super::written::{MM, MPA, Values, Written};
 use crate::failure::Failure;
@@ -11,7 +11,7 @@ use crate::failure::Failure;
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Radius of the round body.
-    #[arg(long, value_name = "LENGTH", default_value = "10mm", value_parser = quantity::length, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", default_value = "10mm", value_parser = quantity::of(LENGTH), allow_hyphen_values = true)]
     radius: f64,
     /// A load per length, as 100N/mm, presses a cylinder; a force, as 50N, a ball.
     #[arg(long, value_name = "LOAD", default_value = "100N/mm", value_parser = quantity::load, allow_hyphen_values = true)]

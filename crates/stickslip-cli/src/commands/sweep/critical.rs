@@ -4,7 +4,8 @@ use std::path::Path;
 
 use stickslip::io::write_atomically;
 
-use super::table::{Row, line};
+use super::done::Row;
+use super::table::line;
 use crate::failure::Failure;
 
 /// Width to which a critical value is known, relative to the step of the axis.

@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 use stickslip::Error;
 use stickslip::results::FileClaim;
 
+use super::done::{Done, ended};
 use super::plan::{folder_of_run, runs};
-use super::shard::{Done, Shard};
+use super::shard::Shard;
 use super::table::Table;
 use crate::failure::{Failure, Outcome};
 
@@ -67,7 +68,7 @@ pub fn merge(
         runs(rows.len()),
         table.path.display()
     ));
-    super::ended(table.rows().iter(), table.path.clone())
+    ended(table.rows().iter(), table.path.clone())
 }
 
 /// Refuses to write over a file that the sweep reads.

@@ -2,6 +2,7 @@
 
 mod columns;
 mod critical;
+mod done;
 mod effort;
 mod idle;
 mod merge;
@@ -12,7 +13,6 @@ mod table;
 mod values;
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::time::Instant;
 
 use stickslip::Error;
@@ -28,10 +28,11 @@ use crate::input::Case;
 use crate::progress::found;
 use crate::voice::{Heartbeat, ProgressPrinter};
 use columns::Columns;
+use done::{Done, Row, ended};
 use one::{Ended, Shared, analyse};
 use plan::{Plan, folder_of_run, runs};
-use shard::{Done, Shard, Share, Sweep, processor};
-use table::{Row, Table};
+use shard::{Shard, Share, Sweep, processor};
+use table::Table;
 
 /// Run an analysis for many values and write one table: a row a run.
 #[derive(Debug, clap::Args)]
@@ -288,16 +289,6 @@ fn part(mut all: Runs, files: &[PathBuf], output: &Path, share: Share) -> Outcom
         output.display()
     ));
     ended(shard.done.values().map(|done| &done.row), folder)
-}
-
-/// What a sweep with these rows ends with.
-fn ended<'a>(rows: impl Iterator<Item = &'a Row> + Clone, table: PathBuf) -> Outcome {
-    let (all, poor) = (rows.clone().count(), rows.clone().any(Row::poor));
-    match rows.filter(|row| row.failed()).count() {
-        0 if poor => Ok(ExitCode::from(crate::failure::CHECK)),
-        0 => Ok(ExitCode::SUCCESS),
-        failed => Err(Failure::Runs { failed, all, table }),
-    }
 }
 
 /// The runs of a sweep, made one after the other.

@@ -12,12 +12,11 @@ use serde_json::{Value, json};
 use stickslip::Error;
 use stickslip::error::IoError;
 use stickslip::io::write_atomically;
-use stickslip::linear::Digest;
 use stickslip::owner::{self, Holder, Owner, Refused, Waiting};
 use stickslip::results::digest_of;
 
+use super::done::Done;
 use super::plan::Plan;
-use super::table::Row;
 use crate::failure::Failure;
 
 /// The file that says what the sweep is.
@@ -27,7 +26,7 @@ const RECORD: &str = "shard.json";
 const LEASE: &str = "shard.lease";
 
 /// What `shard.json` says that it is.
-const KIND: &str = "stickslip sweep shard 1";
+const KIND: &str = "stickslip sweep shard 2";
 
 /// One of how many parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -195,45 +194,6 @@ struct Record {
 fn digest_in_words(file: &Path) -> Result<String, Error> {
     let [a, b] = digest_of(file)?;
     Ok(format!("{a:016x}{b:016x}"))
-}
-
-/// A run of a shard that is over.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct Done {
-    /// Its row.
-    #[serde(flatten)]
-    pub row: Row,
-    /// The columns of its history, in order; none if it did not come so far.
-    pub names: Vec<String>,
-    /// Its row in the table of what runs took.
-    pub effort: String,
-    /// The kind of processor: last digits may depend on it.
-    pub processor: String,
-}
-
-/// A digest of a row without its own.
-fn digest(row: &Value) -> String {
-    let mut digest = Digest::default();
-    digest.bytes(row.to_string().as_bytes());
-    let [a, b] = digest.finish();
-    format!("{a:016x}{b:016x}")
-}
-
-impl Done {
-    fn to_json(&self, run: usize) -> Value {
-        let mut value = json!(self);
-        value["run"] = json!(run + 1);
-        value["digest"] = json!(digest(&value));
-        value
-    }
-
-    /// What is known of a run; `None` of a text that is of another one, or damaged, were it by one digit.
-    fn from_json(text: &str, run: usize) -> Option<Done> {
-        let mut value: Value = serde_json::from_str(text).ok()?;
-        let said = value.as_object_mut()?.remove("digest")?;
-        let sound = said.as_str()? == digest(&value) && value["run"] == json!(run + 1);
-        sound.then(|| Done::deserialize(&value).ok())?
-    }
 }
 
 /// A part of a sweep with what is done of it, as its folder has it.
@@ -509,38 +469,6 @@ mod tests {
         let share = Share { index: 1, of: 2 };
         let back = Sweep::from_json(&sweep().to_json(share)).unwrap();
         assert_eq!(back, (sweep(), share));
-        let done = Done {
-            row: Row {
-                values: vec!["[1, 2]".into()],
-                outcome: "no \"set\"\nhere".into(),
-                counts: Some([1, 2, 3]),
-                last: [0.1 + 0.2, -0.0, 5e-324, f64::MAX]
-                    .iter()
-                    .enumerate()
-                    .map(|(i, x)| (format!("q{i}"), *x))
-                    .collect(),
-            },
-            names: vec!["q1".into(), "q0".into()],
-            effort: "1,0.5".into(),
-            processor: "x".into(),
-        };
-        let line = done.to_json(6).to_string();
-        assert!(!line.contains('\n'));
-        let back = Done::from_json(&line, 6).unwrap();
-        assert_eq!(&back, &done);
-        assert!(Done::from_json(&line, 5).is_none());
-        assert_eq!(back.row.last["q1"].to_bits(), (-0.0_f64).to_bits());
-        let mut unknown = Done::default();
-        unknown.row.last.insert("q".into(), f64::NAN);
-        let back = Done::from_json(&unknown.to_json(0).to_string(), 0).unwrap();
-        assert!(back.row.last["q"].is_nan() && back.row.counts.is_none());
-        assert!(Done::from_json(&line[..line.len() - 1], 6).is_none());
-        // A digit that was changed is found as well as a line that was cut.
-        for (from, to) in [("e-324", "e-323"), ("\"run\":7", "\"run\":8"), ("q1", "q2")] {
-            assert!(line.contains(from), "{line}");
-            let other = line.replace(from, to);
-            assert!(Done::from_json(&other, 6).is_none(), "{from}");
-        }
     }
 
     #[test]

@@ -1,80 +1,14 @@
 //! The table of a sweep: a row a run, as CSV.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use serde::{Deserialize, Serialize};
 use stickslip::Error;
 use stickslip::error::IoError;
 use stickslip::io::csv::split;
 use stickslip::io::{own, write_atomically};
-use stickslip::results::Summary;
 
+use super::done::{Done, Row};
 use super::effort;
-use super::shard::Done;
-
-/// What is known of a run.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct Row {
-    /// The values of the axes.
-    pub values: Vec<String>,
-    /// `done`, or why not.
-    pub outcome: String,
-    /// Increments, iterations and cut-backs; none if the model could not be built.
-    pub counts: Option<[usize; 3]>,
-    /// The last row of the history.
-    #[serde(with = "in_words")]
-    pub last: BTreeMap<String, f64>,
-}
-
-/// Numbers as text: those of JSON know no NaN.
-mod in_words {
-    use std::collections::BTreeMap;
-
-    use serde::de::Error;
-    use serde::{Deserialize, Deserializer, Serializer};
-
-    pub fn serialize<S: Serializer>(
-        numbers: &BTreeMap<String, f64>,
-        out: S,
-    ) -> Result<S::Ok, S::Error> {
-        out.collect_map(numbers.iter().map(|(name, x)| (name, format!("{x:e}"))))
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(
-        from: D,
-    ) -> Result<BTreeMap<String, f64>, D::Error> {
-        let words: BTreeMap<String, String> = Deserialize::deserialize(from)?;
-        let number =
-            |(name, word): (String, String)| Ok((name, word.parse().map_err(Error::custom)?));
-        words.into_iter().map(number).collect()
-    }
-}
-
-impl Row {
-    /// Whether the run did not pass the quality gate.
-    pub fn poor(&self) -> bool {
-        self.outcome.starts_with("quality: ")
-    }
-
-    /// Whether it failed.
-    pub fn failed(&self) -> bool {
-        self.outcome != "done" && !self.poor()
-    }
-
-    /// Takes over what a summary says.
-    pub fn with_summary(mut self, summary: Option<Summary>) -> Self {
-        if let Some(s) = summary {
-            self.counts = Some([
-                s.attempts.increments,
-                s.attempts.iterations,
-                s.attempts.cutbacks,
-            ]);
-            self.last = s.last;
-        }
-        self
-    }
-}
 
 /// The rows so far and the file they are written to.
 #[derive(Debug)]
