@@ -7,9 +7,9 @@ extern crate self as stickslip_base;
 
 pub mod error;
 pub mod keep;
-pub mod lease;
 pub mod machine;
 pub mod math;
+pub mod owner;
 pub mod references;
 pub mod registry;
 

@@ -33,7 +33,7 @@ fn text(failure: &Failure, renderer: &Renderer) -> String {
         Failure::Arguments(message, help) => format!("error: {message}\n  help: {help}"),
         Failure::Runs { failed, all, table } => format!(
             "error: {failed} of {all} runs failed\n  help: the {} `outcome` of {} says why",
-            match table.extension().is_some_and(|e| e == "jsonl") {
+            match table.is_dir() {
                 true => "entry",
                 false => "column",
             },

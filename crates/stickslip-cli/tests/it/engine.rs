@@ -1,5 +1,5 @@
-//! Factors by MUMPS on the ranks of an MPI job, from outside: the same results, and nothing left behind whoever dies. What needs the job says NOT RUN where
-//! `cargo xtask engine mumps` has built nothing.
+//! Factors by MUMPS on the ranks of an MPI job, from outside: the same results, and nothing left behind whoever dies. What needs the job is
+//! ignored unless asked for; `.ci/run` builds the engine and asks for it.
 
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
@@ -23,18 +23,6 @@ step = [{ name = "fall", duration = 1.5e-4, increments = { fixed = 15 }, dynamic
 
 /// Cells of these blocks.
 const CELLS: f64 = 18.0 * 6.0 + 7.0 * 7.0;
-
-/// Whether there is a program for the ranks; says so if not. The binary looks there, too.
-fn built() -> bool {
-    let own = Path::new(env!("CARGO_BIN_EXE_stickslip"));
-    let target = own.parent().and_then(Path::parent).expect("target");
-    let there = std::env::var_os("STICKSLIP_MUMPS").is_some()
-        || target.join("engines/stickslip-mumps").is_file();
-    if !there {
-        println!("NOT RUN: there is no target/engines/stickslip-mumps");
-    }
-    there
-}
 
 fn place(name: &str, case: &str) -> PathBuf {
     support::place("engine", name, case)
@@ -176,10 +164,8 @@ fn compare(name: &str, case: &str, all: &[(&str, &str)]) -> Vec<Assembly> {
 }
 
 #[test]
+#[ignore = "needs the MUMPS engine: `cargo xtask engine mumps`, then `cargo test --tests -- --ignored`"]
 fn results_are_those_of_the_built_in_engine_at_rest_and_in_motion() {
-    if !built() {
-        return;
-    }
     let all = [("1", ""), ("2", ""), ("3", ", spread = true")];
     for motion in compare("motion", THROWN, &all) {
         assert!(motion.cells.is_empty() && motion.entries > 0.0);
@@ -201,10 +187,8 @@ fn results_are_those_of_the_built_in_engine_at_rest_and_in_motion() {
 
 /// Other elements and materials than those above: what one word of the problem file makes of it.
 #[test]
+#[ignore = "needs the MUMPS engine: `cargo xtask engine mumps`, then `cargo test --tests -- --ignored`"]
 fn cells_of_all_sorts_are_made_by_the_ranks() {
-    if !built() {
-        return;
-    }
     const STRAIN: &str = "plane-strain";
     const STEEL: &str = "material = \"steel\" }";
     const CONSTANT: &str =
@@ -240,10 +224,8 @@ initial.block = { set = "block", temperature.linear = { value = 0, point = [0, 0
 
 /// Springs on an elastic body, which contact alone would hold along the floor, and on a rigid one: what is not of cells.
 #[test]
+#[ignore = "needs the MUMPS engine: `cargo xtask engine mumps`, then `cargo test --tests -- --ignored`"]
 fn bodies_on_springs_have_the_same_results_with_a_matrix_that_nobody_keeps() {
-    if !built() {
-        return;
-    }
     let springs = r#"load.soft = { set = "block", spring = { stiffness = [4e9, 1e9] } }
 body.wall = { generate.rectangle = { from = [4, 0], to = [5, 1], cells = [2, 2] }, material = "steel", rigid = true }
 load.wall = { set = "wall", spring = { stiffness = [1e9, 2e9] } }
@@ -261,41 +243,56 @@ load.press = { set = "block.top", pressure.value = 1e8 }
     }
 }
 
-#[test]
-fn what_is_missing_is_named() {
-    let folder = place("missing", CASE);
-    let says = |command: Command, words: &[&str]| {
-        let ended = output(command);
-        let said = text(&ended.stderr);
-        assert_eq!(code(&ended), Some(3), "{said}");
-        for word in words {
-            assert!(said.contains(word), "{word} in {said}");
-        }
-        assert_clean(&folder);
-    };
-    let mut command = run(&folder, &["--engine", "mumps"]);
-    command.env("STICKSLIP_MUMPS", "/nowhere/stickslip-mumps");
-    says(
-        command,
-        &["/nowhere/stickslip-mumps", "cargo xtask engine mumps"],
-    );
-    if !built() {
-        return;
+/// A run that ends before its first increment, and says all of these words.
+fn assert_says(folder: &Path, command: Command, words: &[&str]) {
+    let ended = output(command);
+    let said = text(&ended.stderr);
+    assert_eq!(code(&ended), Some(3), "{said}");
+    for word in words {
+        assert!(said.contains(word), "{word} in {said}");
     }
-    let mut command = run(&folder, &["--engine", "mumps"]);
-    command.env("STICKSLIP_MPIRUN", "/nowhere/mpirun");
-    says(
-        command,
-        &["/nowhere/mpirun, which does not start", "mpi-default-bin"],
-    );
-    // A program that is no engine.
-    let mut command = run(&folder, &["--engine", "mumps"]);
-    command.env("STICKSLIP_MUMPS", "/bin/true");
-    says(command, &["the engine `mumps` did not start"]);
-    let place = folder.join("between/none");
-    let mut command = run(&folder, &["--engine", "mumps"]);
-    command.env("STICKSLIP_MUMPS_DIR", &place);
-    says(command, &["files for the engine", "STICKSLIP_MUMPS_DIR"]);
+    assert_clean(folder);
+}
+
+fn with_variable(folder: &Path, name: &str, value: &str) -> Command {
+    let mut command = run(folder, &["--engine", "mumps"]);
+    command.env(name, value);
+    command
+}
+
+#[test]
+fn a_program_that_is_missing_is_named() {
+    let folder = place("missing", CASE);
+    let nowhere = "/nowhere/stickslip-mumps";
+    let command = with_variable(&folder, "STICKSLIP_MUMPS", nowhere);
+    assert_says(&folder, command, &[nowhere, "cargo xtask engine mumps"]);
+}
+
+#[test]
+#[ignore = "needs the MUMPS engine: `cargo xtask engine mumps`, then `cargo test --tests -- --ignored`"]
+fn what_the_ranks_lack_is_named() {
+    let folder = place("lacking", CASE);
+    let place = folder.join("between/none").display().to_string();
+    for (name, value, words) in [
+        (
+            "STICKSLIP_MPIRUN",
+            "/nowhere/mpirun",
+            ["/nowhere/mpirun, which does not start", "mpi-default-bin"],
+        ),
+        // A program that is no engine.
+        (
+            "STICKSLIP_MUMPS",
+            "/bin/true",
+            ["the engine `mumps` did not start", ""],
+        ),
+        (
+            "STICKSLIP_MUMPS_DIR",
+            &place,
+            ["files for the engine", "STICKSLIP_MUMPS_DIR"],
+        ),
+    ] {
+        assert_says(&folder, with_variable(&folder, name, value), &words);
+    }
 }
 
 #[test]
@@ -364,11 +361,9 @@ fn started(folder: &Path, spread: bool) -> (Child, u32, Vec<u32>) {
 }
 
 #[test]
+#[ignore = "needs the MUMPS engine: `cargo xtask engine mumps`, then `cargo test --tests -- --ignored`"]
 #[cfg(target_os = "linux")]
 fn nothing_stays_behind_whoever_dies() {
-    if !built() {
-        return;
-    }
     for (who, spread) in [
         ("rank", false),
         ("rank", true),

@@ -147,14 +147,31 @@ fn parts_side_by_side_make_what_one_process_makes_and_factor_every_body_once() {
     assert!(tree(&folder.join("case.sweep.shards")) == before);
 }
 
+/// The files of the runs of a part that are over.
+fn done(folder: &Path, part: &str) -> BTreeMap<PathBuf, Vec<u8>> {
+    let shard = folder
+        .join("case.sweep.shards")
+        .join(part.replace('/', "-of-"));
+    let all = names(&shard, ".json").into_iter();
+    // One that is written has another name until then.
+    let own = all.filter(|name| name.to_string_lossy().starts_with('0'));
+    own.map(|name| {
+        (
+            name.clone(),
+            std::fs::read(shard.join(name)).expect("a file"),
+        )
+    })
+    .collect()
+}
+
 /// When a shard is killed.
 enum Moment {
     /// Right away.
     Soon,
     /// As soon as another file has come whose name ends so.
     File(&'static str),
-    /// When so many rows are there.
-    Rows(usize),
+    /// When so many runs are over.
+    Runs(usize),
 }
 
 #[test]
@@ -166,25 +183,21 @@ fn a_shard_that_is_killed_goes_on_where_it_was() {
         ("1/3", Moment::File(".lease")),
         ("2/3", Moment::File(".lock")),
         ("1/3", Moment::File("history.csv")),
-        ("1/3", Moment::Rows(1)),
-        ("2/3", Moment::Rows(2)),
+        ("1/3", Moment::Runs(1)),
+        ("2/3", Moment::Runs(2)),
         ("3/3", Moment::File(".vtu")),
-        ("3/3", Moment::Rows(1)),
+        ("3/3", Moment::Runs(1)),
     ];
     for (part, moment) in moments {
-        let rows = folder.join(format!(
-            "case.sweep.shards/{}/rows.jsonl",
-            part.replace('/', "-of-")
-        ));
-        let lines = || std::fs::read_to_string(&rows).unwrap_or_default();
-        let (before, known) = (lines(), files(&folder));
+        let done = || done(&folder, part);
+        let (before, known) = (done(), files(&folder));
         let mut child = shard(&folder, part);
         let come = || match moment {
             Moment::Soon => true,
             Moment::File(ends) => names(&folder, ends)
                 .iter()
                 .any(|name| !known.contains(name)),
-            Moment::Rows(count) => lines().lines().count() >= count,
+            Moment::Runs(count) => done().len() >= count,
         };
         // It may be over before; then there is nothing to kill, and that is as good.
         while !come() && child.try_wait().expect("a state").is_none() {
@@ -193,18 +206,19 @@ fn a_shard_that_is_killed_goes_on_where_it_was() {
         let _ = child.kill();
         child.wait().expect("it ends");
         // What was done stays, and is not done again.
-        assert!(lines().starts_with(&before), "{}\n{before}", lines());
+        let after = done();
+        assert!(before.iter().all(|(name, bytes)| after[name] == *bytes));
     }
-    // One that was cut in the middle of a line.
-    let rows = folder.join("case.sweep.shards/3-of-3/rows.jsonl");
-    let text_before = std::fs::read_to_string(&rows).expect("rows");
-    std::fs::write(&rows, format!("{text_before}{{\"run\": 6, \"val")).expect("a file");
+    // One that was cut in the middle of a file.
+    let cut = folder.join("case.sweep.shards/3-of-3/.0006.json.1.tmp");
+    std::fs::write(cut, "{\"run\": 6, \"val").expect("a file");
+    let before = done(&folder, "3/3");
     for part in ["3/3", "1/3", "2/3"] {
         let output = shard(&folder, part).wait_with_output().expect("it ends");
         assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
     }
-    let after = std::fs::read_to_string(&rows).expect("rows");
-    assert!(after.starts_with(&text_before));
+    let after = done(&folder, "3/3");
+    assert!(before.iter().all(|(name, bytes)| after[name] == *bytes));
     assert_merged(&folder);
     assert!(factorisations(&folder) <= 2);
 }
@@ -234,10 +248,15 @@ fn what_cannot_be_merged_is_refused_with_its_reason() {
     );
     parts(&folder, "t.csv", &["2/2"]);
     // A shard that has not come to its end.
-    let rows = folder.join("t.shards/2-of-2/rows.jsonl");
-    let lines = std::fs::read_to_string(&rows).expect("rows");
-    let first = lines.lines().next().expect("a row");
-    std::fs::write(&rows, format!("{first}\n")).expect("a file");
+    let run = folder.join("t.shards/2-of-2/0002.json");
+    let whole = std::fs::read_to_string(&run).expect("a run");
+    std::fs::write(&run, whole.replace("done", "gone")).expect("a file");
+    let said = merge(&["t.shards"]);
+    assert!(
+        said.contains("0002.json: this is no run of this shard"),
+        "{said}"
+    );
+    std::fs::remove_file(&run).expect("a file");
     let said = merge(&["t.shards"]);
     assert!(said.contains("1 of 5 runs are missing: run "), "{said}");
     assert!(
@@ -251,7 +270,7 @@ fn what_cannot_be_merged_is_refused_with_its_reason() {
     parts(&folder, "t.csv", &["2/2"]);
     // A copy, and another division.
     std::fs::create_dir(folder.join("copy")).expect("a folder");
-    for name in ["shard.json", "rows.jsonl"] {
+    for name in ["shard.json", "0002.json", "0004.json"] {
         let from = folder.join("t.shards/2-of-2").join(name);
         std::fs::copy(from, folder.join("copy").join(name)).expect("a copy");
     }

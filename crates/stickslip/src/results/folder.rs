@@ -6,12 +6,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::frd::{self, FrdPlan};
-use super::lock::{self, Lock, Refused};
 use super::modes::is_of_modes;
 use super::saved::{self, Source};
 use super::summary::Status;
 use crate::error::{Error, IoError};
 use crate::io::{input, meant_by, own, pvd, write_atomically};
+use crate::owner::{Holder, Owner, Refused};
 
 /// What a run takes a folder with.
 #[derive(Debug, Clone, Default)]
@@ -39,7 +39,7 @@ pub(crate) struct Folder {
     /// What the user should know of what was there.
     pub notes: Vec<String>,
     /// Nobody holds it when the run has ended.
-    lock: Option<Lock>,
+    lock: Option<Owner>,
 }
 
 impl Folder {
@@ -56,7 +56,7 @@ impl Folder {
         }
         let lock = hold(directory, claim.dead.as_deref())?;
         let mut notes = Vec::new();
-        if let Some(holder) = &lock.stale {
+        if let Some(holder) = lock.before() {
             notes.push(format!(
                 "{}: the run before ({holder}) was killed; what it left is removed",
                 directory.display()
@@ -110,7 +110,7 @@ impl Folder {
                 &self.directory,
                 format!(
                     "the folder, or the {} in it, was removed while the run wrote to it: results before this time are lost; run again into another folder",
-                    lock::NAME
+                    LOCK
                 ),
             )),
             _ => Ok(()),
@@ -173,7 +173,7 @@ impl Folder {
     }
 
     fn say(&self, status: Status, outcome: &str) -> Result<(), Error> {
-        let holder = lock::Holder::this();
+        let holder = Holder::this();
         let text = serde_json::json!({
             "status": status,
             "outcome": outcome,
@@ -213,7 +213,7 @@ impl Folder {
 #[derive(Debug)]
 pub struct FolderClaim {
     directory: PathBuf,
-    lock: Option<Lock>,
+    lock: Option<Owner>,
 }
 
 impl Drop for FolderClaim {
@@ -239,14 +239,22 @@ impl FolderClaim {
     }
 }
 
-fn hold(directory: &Path, dead: Option<&str>) -> Result<Lock, Error> {
-    Lock::take(directory, dead).map_err(|refused| match refused {
-        Refused::Io(e) => Error::io(&directory.join(lock::NAME), e),
+/// Name of the file that says whose a folder is.
+const LOCK: &str = "run.lock";
+
+fn lock(path: PathBuf, dead: Option<&str>) -> Result<Owner, Refused> {
+    Owner::lock(path, |path| own::open(path, own::Use::ChangeOrMake), dead)
+}
+
+fn hold(directory: &Path, dead: Option<&str>) -> Result<Owner, Error> {
+    let path = directory.join(LOCK);
+    lock(path.clone(), dead).map_err(|refused| match refused {
+        Refused::Io(e) => Error::io(&path, e),
         Refused::Taken(holder) => fault(
             directory,
             format!(
                 "another run writes into this folder ({holder}): wait for it, or choose another folder; if that run is over, remove {}",
-                lock::NAME
+                LOCK
             ),
         ),
     })
@@ -254,7 +262,9 @@ fn hold(directory: &Path, dead: Option<&str>) -> Result<Lock, Error> {
 
 /// Whether a run is going on in a folder of results, and who runs it: `process 4711 on host`.
 pub fn running(directory: &Path) -> Option<String> {
-    Lock::holder(directory).map(|holder| holder.to_string())
+    let path = directory.join(LOCK);
+    input::check(&path).ok()?;
+    Holder::of_lock(&path).map(|holder| holder.to_string())
 }
 
 /// The folder of what is known of interfaces.
@@ -428,7 +438,7 @@ fn no_folder(directory: &Path, e: std::io::Error) -> Error {
 /// is gone when this is dropped.
 #[derive(Debug)]
 pub struct FileClaim {
-    _lock: Lock,
+    _lock: Owner,
 }
 
 impl FileClaim {
@@ -440,7 +450,7 @@ impl FileClaim {
         let mut beside = file.as_os_str().to_owned();
         beside.push(".lock");
         let beside = PathBuf::from(beside);
-        match Lock::take_file(beside.clone(), None) {
+        match lock(beside.clone(), None) {
             Ok(lock) => Ok(FileClaim { _lock: lock }),
             Err(Refused::Io(e)) => Err(Error::io(&beside, e)),
             Err(Refused::Taken(holder)) => Err(fault(

@@ -9,7 +9,6 @@ pub(crate) mod frd;
 mod free_bodies;
 mod growth;
 pub(crate) mod history;
-pub(crate) mod lock;
 pub(crate) mod loops;
 pub(crate) mod modes;
 pub(crate) mod observer;

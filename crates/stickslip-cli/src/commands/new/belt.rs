@@ -1,8 +1,8 @@
 use std::f64::consts::TAU;
 
-use super::quantity;
+use super::quantity::{self, FORCE, LINE_LOAD, MASS, SPEED};
 use super::target::Target;
-use super::written::{Written, fill, number};
+use super::written::{Values, Written};
 use crate::failure::Failure;
 use crate::style::digits;
 
@@ -10,16 +10,16 @@ use crate::style::digits;
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Mass.
-    #[arg(long, value_name = "MASS", default_value = "1kg", value_parser = quantity::mass, allow_hyphen_values = true)]
+    #[arg(long, value_name = "MASS", default_value = "1kg", value_parser = quantity::of(MASS), allow_hyphen_values = true)]
     mass: f64,
     /// Force that presses it on the belt.
-    #[arg(long, value_name = "FORCE", default_value = "10N", value_parser = quantity::force, allow_hyphen_values = true)]
+    #[arg(long, value_name = "FORCE", default_value = "10N", value_parser = quantity::of(FORCE), allow_hyphen_values = true)]
     load: f64,
     /// Stiffness of the spring.
-    #[arg(long, value_name = "FORCE/LENGTH", default_value = "100N/m", value_parser = quantity::line_load, allow_hyphen_values = true)]
+    #[arg(long, value_name = "FORCE/LENGTH", default_value = "100N/m", value_parser = quantity::of(LINE_LOAD), allow_hyphen_values = true)]
     stiffness: f64,
     /// Velocity of the belt.
-    #[arg(long, value_name = "VELOCITY", default_value = "0.1m/s", value_parser = quantity::speed, allow_hyphen_values = true)]
+    #[arg(long, value_name = "VELOCITY", default_value = "0.1m/s", value_parser = quantity::of(SPEED), allow_hyphen_values = true)]
     speed: f64,
     /// Coefficient of friction at rest.
     #[arg(long = "static", value_name = "MU", default_value = "0.5", value_parser = quantity::friction)]
@@ -34,7 +34,7 @@ pub struct Arguments {
     pub(super) target: Target,
 }
 
-const PROBLEM: &str = include_str!("belt.toml");
+const TEMPLATE: &str = include_str!("belt.template");
 
 /// The closed solution: the mass sticks to the belt, lets go at `F_s/k`, and swings about `F_k/k` until its velocity is that of the belt again.
 struct Cycle {
@@ -103,108 +103,47 @@ pub fn write(a: &Arguments) -> Result<Written, Failure> {
             ),
         ));
     }
-    let title = format!(
-        "a mass of {} kg on a belt at {} m/s, held by {} N/m",
-        digits(a.mass, 4),
-        digits(a.speed, 4),
-        digits(a.stiffness, 4)
-    );
-    let mut written = Written {
-        problem: problem(a, &cycle, &title),
-        title,
-        ..Written::default()
-    };
-    tell(&mut written, &cycle);
-    checks(&mut written, a, &cycle);
-    Ok(written)
-}
-
-fn tell(written: &mut Written, c: &Cycle) {
-    written.tell(
-        "sticks",
-        format!("for {} s    2 (F_s - F_k) / (k V)", digits(c.stick, 4)),
-    );
-    written.tell(
-        "slips",
-        format!(
-            "for {} s    (2 pi - 2 atan(w (F_s - F_k)/(k V))) / w, w = sqrt(k/m) = {} rad/s",
-            digits(c.slip, 4),
-            digits(c.omega, 4)
-        ),
-    );
-    written.tell(
-        "moves",
-        format!(
-            "between {} and {} m    F_k/k -+ sqrt(((F_s - F_k)/k)^2 + (V/w)^2)",
-            digits(c.middle - c.swing, 4),
-            digits(c.middle + c.swing, 4)
-        ),
-    );
-    written.tell(
-        "increments",
-        "1/300 of a period of the spring, shorter where it sticks or lets go".into(),
-    );
-}
-
-fn duration(a: &Arguments, c: &Cycle) -> f64 {
-    // It begins as it begins to stick, and ends in the middle of a stick.
-    f64::from(a.cycles) * (c.stick + c.slip) + 0.5 * c.stick
-}
-
-fn problem(a: &Arguments, c: &Cycle, title: &str) -> String {
-    let duration = duration(a, c);
-    let period = TAU / c.omega;
     // Tolerances are relative to body and pressure: both are of a size that suits the motion.
-    let width = 50.0 * c.reach;
+    let width = 50.0 * cycle.reach;
     let pressure = a.load / width;
-    fill(
-        PROBLEM,
-        &[
-            ("title", title.to_string()),
-            ("half", number(0.5 * width)),
-            ("height", number(0.2 * width)),
-            ("young", number(1e5 * pressure)),
-            ("density", number(a.mass / (0.2 * width * width))),
-            ("static", number(a.rest)),
-            ("kinetic", number(a.kinetic)),
-            ("speed", number(a.speed)),
-            ("pressure", number(pressure)),
-            ("spring", number(0.5 * a.stiffness)),
-            ("start", number(c.middle - c.reach)),
-            ("press", number(1e-5 * period)),
-            ("duration", number(duration)),
-            ("part", number(period / 300.0 / duration)),
-            ("least", number(1e-6 * period / duration)),
-            ("event", number(1e-5 * period)),
-        ],
-    )
-}
-
-fn checks(written: &mut Written, a: &Arguments, c: &Cycle) {
-    for (what, reduce, value) in [
-        ("furthest downstream", "max", c.middle + c.swing),
-        ("furthest upstream", "min", c.middle - c.swing),
-    ] {
-        let relative = 1e-3 * c.swing / value.abs().max(1e-3 * c.swing);
-        written.check(what, "m.U1", value, relative, "closed form");
-        if let Some(check) = written.checks.last_mut() {
-            check.at += &format!("\nreduce = \"{reduce}\"");
-        }
-    }
-    let slips = f64::from(a.cycles);
-    let loss = slips * a.kinetic * a.load * (a.speed * c.slip + 2.0 * c.reach);
-    written.check(
-        "what friction takes",
-        "ALLFD",
-        loss,
-        2e-3,
-        "F_k (V T_slip + 2 (F_s - F_k)/k) a cycle",
-    );
-    written.check(
-        "it rides on the belt at the end",
-        "m.V1",
-        a.speed,
-        1e-2,
-        "half way through a stick",
-    );
+    let cycles = f64::from(a.cycles);
+    // It begins as it begins to stick, and ends in the middle of a stick.
+    let duration = cycles * (cycle.stick + cycle.slip) + 0.5 * cycle.stick;
+    let (upstream, downstream) = (cycle.middle - cycle.swing, cycle.middle + cycle.swing);
+    let error = |x: f64| 1e-3 * cycle.swing / x.abs().max(1e-3 * cycle.swing);
+    let slip_path = a.speed * cycle.slip + 2.0 * cycle.reach;
+    let numbers = [
+        ("mass", a.mass),
+        ("speed", a.speed),
+        ("stiffness", a.stiffness),
+        ("stick", cycle.stick),
+        ("slip", cycle.slip),
+        ("omega", cycle.omega),
+        ("upstream", upstream),
+        ("upstream-error", error(upstream)),
+        ("downstream", downstream),
+        ("downstream-error", error(downstream)),
+        ("loss", cycles * a.kinetic * a.load * slip_path),
+        ("half", 0.5 * width),
+        ("height", 0.2 * width),
+        ("young", 1e5 * pressure),
+        ("density", a.mass / (0.2 * width * width)),
+        ("static", a.rest),
+        ("kinetic", a.kinetic),
+        ("pressure", pressure),
+        ("spring", 0.5 * a.stiffness),
+        ("start", cycle.middle - cycle.reach),
+        ("press", 1e-5 * period),
+        ("duration", duration),
+        ("part", period / 300.0 / duration),
+        ("least", 1e-6 * period / duration),
+        ("event", 1e-5 * period),
+    ];
+    Ok(Written::of(
+        TEMPLATE,
+        &Values {
+            numbers: &numbers,
+            ..Values::default()
+        },
+    ))
 }

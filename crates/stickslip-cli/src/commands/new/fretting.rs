@@ -2,9 +2,9 @@ use std::f64::consts::PI;
 
 use super::grid;
 use super::hertz::{Hertz, Materials, Shape};
-use super::quantity;
+use super::quantity::{self, LENGTH, LINE_LOAD, WEAR};
 use super::target::Target;
-use super::written::{MM, MPA, Written, fill, number};
+use super::written::{MM, MPA, Values, Written};
 use crate::failure::Failure;
 use crate::style::digits;
 
@@ -12,21 +12,21 @@ use crate::style::digits;
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Radius of the cylinder.
-    #[arg(long, value_name = "LENGTH", default_value = "6mm", value_parser = quantity::length, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", default_value = "6mm", value_parser = quantity::of(LENGTH), allow_hyphen_values = true)]
     radius: f64,
     /// Load per length.
-    #[arg(long, value_name = "LOAD", default_value = "18.5N/mm", value_parser = quantity::line_load, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LOAD", default_value = "18.5N/mm", value_parser = quantity::of(LINE_LOAD), allow_hyphen_values = true)]
     load: f64,
     #[command(flatten)]
     materials: Materials,
     /// How far the flat is driven to each side.
-    #[arg(long, value_name = "LENGTH", default_value = "25um", value_parser = quantity::length, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", default_value = "25um", value_parser = quantity::of(LENGTH), allow_hyphen_values = true)]
     amplitude: f64,
     /// Coefficient of friction.
     #[arg(long, value_name = "MU", default_value = "0.9", value_parser = quantity::friction)]
     friction: f64,
     /// Volume worn off each of both surfaces over load and path.
-    #[arg(long, value_name = "RATE", default_value = "2.4e-8/MPa", value_parser = quantity::wear, allow_hyphen_values = true)]
+    #[arg(long, value_name = "RATE", default_value = "2.4e-8/MPa", value_parser = quantity::of(WEAR), allow_hyphen_values = true)]
     wear: f64,
     /// Cycles.
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
@@ -41,7 +41,7 @@ pub struct Arguments {
     pub(super) target: Target,
 }
 
-const PROBLEM: &str = include_str!("fretting.toml");
+const TEMPLATE: &str = include_str!("fretting.template");
 
 /// Lines of equal cells up to which a mesh is a matter of minutes.
 const FINE_CELLS: f64 = 400.0;
@@ -90,14 +90,6 @@ impl Test {
             fine,
         }
     }
-
-    fn slides(&self, a: &Arguments) -> bool {
-        a.amplitude > 1.2 * self.yielding
-    }
-
-    fn finest(&self, a: &Arguments) -> f64 {
-        self.hertz.half_width / f64::from(a.cells)
-    }
 }
 
 /// The problem and what is expected of it.
@@ -116,7 +108,8 @@ pub fn write(a: &Arguments) -> Result<Written, Failure> {
             "fewer cycles, a lower wear rate, or a larger radius".into(),
         ));
     }
-    let fine = test.fine / test.finest(a);
+    let finest = test.hertz.half_width / f64::from(a.cells);
+    let fine = test.fine / finest;
     if fine > FINE_CELLS {
         return Err(Failure::Arguments(
             format!(
@@ -130,153 +123,58 @@ pub fn write(a: &Arguments) -> Result<Written, Failure> {
             ),
         ));
     }
-    let mut written = Written {
-        title: title(a),
-        problem: problem(a, &test),
-        ..Written::default()
-    };
-    tell(&mut written, a, &test);
-    checks(&mut written, a, &test);
-    Ok(written)
+    Ok(written(a, &test, finest))
 }
 
-fn title(a: &Arguments) -> String {
-    format!(
-        "fretting of a cylinder of radius {} mm on a flat, {} N/mm, {} um to each side",
-        digits(a.radius * MM, 4),
-        digits(a.load / MM, 4),
-        digits(a.amplitude * 1e6, 4)
-    )
-}
-
-fn problem(a: &Arguments, t: &Test) -> String {
-    let lines = grid::outward(t.finest(a), t.fine, t.size);
+fn written(a: &Arguments, t: &Test, finest: f64) -> Written {
+    let (h, um) = (&t.hertz, 1e6);
     let (young, nu) = a.materials.flat();
-    fill(
-        PROBLEM,
-        &[
-            ("title", title(a)),
-            ("x", grid::list(&grid::both_ways(&lines), MM)),
-            (
-                "y",
-                grid::list(
-                    &grid::downward(&grid::outward(t.finest(a), 4.0 * t.finest(a), t.size)),
-                    MM,
-                ),
-            ),
-            ("radius", number(a.radius * MM)),
-            ("coarse", number(a.radius * MM / 6.0)),
-            ("finest", number(t.finest(a) * MM)),
-            ("fine", number(t.fine * MM)),
-            ("growth", number(grid::GROWTH)),
-            ("young-round", number(a.materials.young * MPA)),
-            ("poisson-round", number(a.materials.poisson)),
-            ("young-flat", number(young * MPA)),
-            ("poisson-flat", number(nu)),
-            ("mu", number(a.friction)),
-            ("wear", number(a.wear / MPA)),
-            ("amplitude", number(a.amplitude * MM)),
-            (
-                "push",
-                number(2.0 * t.hertz.half_width * t.hertz.half_width / a.radius * MM),
-            ),
-            ("load", number(a.load / MM)),
-            ("cycles", t.cycles.to_string()),
-            ("jump", t.jump.to_string()),
-        ],
-    )
-}
-
-fn tell(written: &mut Written, a: &Arguments, t: &Test) {
-    let h = &t.hertz;
-    let mm = |x: f64| digits(x * MM, 3);
-    let um = |x: f64| digits(x * 1e6, 3);
-    written.tell(
-        "first contact",
-        format!(
-            "half-width {} mm, largest pressure {} MPa    Hertz, E* = {} GPa",
-            mm(h.half_width),
-            digits(h.pressure * MPA, 4),
-            digits(h.modulus * 1e-9, 4)
+    let along = grid::both_ways(&grid::outward(finest, t.fine, t.size));
+    let down = grid::downward(&grid::outward(finest, 4.0 * finest, t.size));
+    let numbers = [
+        ("radius", a.radius * MM),
+        ("load", a.load / MM),
+        ("amplitude", a.amplitude * MM),
+        ("amplitude-um", a.amplitude * um),
+        ("half-width", h.half_width * MM),
+        ("pressure", h.pressure * MPA),
+        ("modulus", h.modulus * 1e-9),
+        ("shear", a.friction * a.load / MM),
+        ("yielding", t.yielding * um),
+        ("volume", t.volume * MM * MM),
+        // How much bodies give way is known to a third.
+        (
+            "volume-error",
+            0.02 + 0.33 * t.yielding / (a.amplitude - t.yielding),
         ),
-    );
-    written.tell(
-        "friction",
-        format!(
-            "{} N/mm where all slides    mu P",
-            digits(a.friction * a.load / MM, 4)
-        ),
-    );
-    written.tell(
-        "regime",
-        match t.slides(a) {
-            true => format!("gross slip: bodies give way by some {} um before all slides, {} um are driven", um(t.yielding), um(a.amplitude)),
-            false => format!("partial slip or its border: bodies give way by some {} um before all slides, {} um are driven", um(t.yielding), um(a.amplitude)),
+        ("worn", t.worn * MM),
+        ("depth", t.worn * t.worn / (4.0 * a.radius) * um),
+        ("cells", f64::from(a.cells)),
+        ("finest", finest * MM),
+        ("fine", t.fine * MM),
+        ("asked", f64::from(a.cycles)),
+        ("cycles", f64::from(t.cycles)),
+        ("computed", f64::from(t.cycles / t.jump)),
+        ("jump", f64::from(t.jump)),
+        ("coarse", a.radius * MM / 6.0),
+        ("growth", grid::GROWTH),
+        ("young-round", a.materials.young * MPA),
+        ("poisson-round", a.materials.poisson),
+        ("young-flat", young * MPA),
+        ("poisson-flat", nu),
+        ("mu", a.friction),
+        ("wear", a.wear / MPA),
+        ("push", 2.0 * h.half_width * h.half_width / a.radius * MM),
+    ];
+    Written::of(
+        TEMPLATE,
+        &Values {
+            numbers: &numbers,
+            texts: &[("x", grid::list(&along, MM)), ("y", grid::list(&down, MM))],
+            holds: &[
+                ("slides", a.amplitude > 1.2 * t.yielding),
+                ("more cycles", t.cycles != a.cycles),
+            ],
         },
-    );
-    if t.slides(a) {
-        written.tell("worn off both", format!("{} mm2 after {} cycles (k P 4 (amplitude - what bodies give way) cycles, k of both)", digits(t.volume * MM * MM, 3), t.cycles));
-        written.tell("scar", format!("half-width of contact {} mm, depth in each body some {} um    b^3 = a^3 + 3/2 R V, b^2/(4 R)", mm(t.worn), um(t.worn * t.worn / (4.0 * a.radius))));
-    }
-    written.tell(
-        "mesh",
-        format!(
-            "{} cells of {} mm on the first half-width, as small out to {} mm",
-            a.cells,
-            mm(t.finest(a)),
-            mm(t.fine)
-        ),
-    );
-    written.tell(
-        "cycles",
-        format!(
-            "{} in all; {} are computed, each for {}",
-            t.cycles,
-            t.cycles / t.jump,
-            t.jump
-        ),
-    );
-    if t.cycles != a.cycles {
-        written.notes.push(format!(
-            "{} cycles are no whole number of jumps; {} are written",
-            a.cycles, t.cycles
-        ));
-    }
-    if !t.slides(a) {
-        written.notes.push("in partial slip only the rim of the contact wears; no figures are expected of the scar".into());
-    }
-}
-
-fn checks(written: &mut Written, a: &Arguments, t: &Test) {
-    written.check(
-        "load",
-        "contact.CFN2",
-        -a.load / MM,
-        5e-3,
-        "equilibrium; along the normal of the surface as it lies",
-    );
-    if !t.slides(a) {
-        return;
-    }
-    written.check("cycles", "CYCLES", f64::from(t.cycles), 1e-6, "the problem");
-    let shear = a.friction * a.load / MM;
-    written.check(
-        "friction where all slides",
-        "contact.CFS1",
-        shear,
-        0.02,
-        "mu P",
-    );
-    if let Some(check) = written.checks.last_mut() {
-        check.at += "\nreduce = \"max\"";
-    }
-    // How much bodies give way is known to a third.
-    let share = 0.02 + 0.33 * t.yielding / (a.amplitude - t.yielding);
-    written.check(
-        "volume worn off both",
-        "contact.CWEARVOL",
-        t.volume * MM * MM,
-        share,
-        "Archard: k P 4 (amplitude - what bodies give way) cycles",
-    );
+    )
 }

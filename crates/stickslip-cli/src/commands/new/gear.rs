@@ -1,10 +1,9 @@
 use std::f64::consts::PI;
 
-use super::quantity;
+use super::quantity::{self, LENGTH, STRESS, TORQUE};
 use super::target::Target;
-use super::written::{MM, MPA, Written, fill, number};
+use super::written::{MM, MPA, Values, Written};
 use crate::failure::Failure;
-use crate::style::digits;
 
 /// Two spur gears that turn through two pitches under a torque.
 #[derive(Debug, clap::Args)]
@@ -16,16 +15,16 @@ pub struct Arguments {
     #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u32).range(5..=200))]
     wheel: u32,
     /// Module: pitch diameter over number of teeth.
-    #[arg(long, value_name = "LENGTH", default_value = "2mm", value_parser = quantity::length, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", default_value = "2mm", value_parser = quantity::of(LENGTH), allow_hyphen_values = true)]
     module: f64,
     /// Width of the teeth.
-    #[arg(long, value_name = "LENGTH", default_value = "10mm", value_parser = quantity::length, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", default_value = "10mm", value_parser = quantity::of(LENGTH), allow_hyphen_values = true)]
     width: f64,
     /// Torque that holds the wheel back.
-    #[arg(long, value_name = "TORQUE", default_value = "20Nm", value_parser = quantity::torque, allow_hyphen_values = true)]
+    #[arg(long, value_name = "TORQUE", default_value = "20Nm", value_parser = quantity::of(TORQUE), allow_hyphen_values = true)]
     torque: f64,
     /// Young's modulus of both.
-    #[arg(long, value_name = "STRESS", default_value = "210GPa", value_parser = quantity::stress, allow_hyphen_values = true)]
+    #[arg(long, value_name = "STRESS", default_value = "210GPa", value_parser = quantity::of(STRESS), allow_hyphen_values = true)]
     young: f64,
     /// Poisson's ratio of both.
     #[arg(long, value_name = "NU", default_value = "0.3", value_parser = quantity::poisson)]
@@ -40,7 +39,7 @@ pub struct Arguments {
     pub(super) target: Target,
 }
 
-const PROBLEM: &str = include_str!("gear.toml");
+const TEMPLATE: &str = include_str!("gear.template");
 
 /// Pressure angle, height of a tooth above and depth of a gap below the pitch circle, over the module: those of the generator.
 const PRESSURE_ANGLE: f64 = 20.0 * PI / 180.0;
@@ -123,125 +122,52 @@ impl Pair {
 /// Gears whose teeth are no involutes where they touch.
 pub fn write(a: &Arguments) -> Result<Written, Failure> {
     let pair = Pair::of(a)?;
-    let title = format!(
-        "{} and {} teeth of module {} mm, {} Nm on the wheel",
-        a.teeth,
-        a.wheel,
-        digits(a.module * MM, 4),
-        digits(a.torque, 4)
-    );
-    let mut written = Written {
-        problem: problem(a, &pair, &title),
-        title,
-        ..Written::default()
-    };
-    tell(&mut written, a, &pair);
-    let torque = pair.torque(a) * MM;
-    let off = OFF * (80.0 / f64::from(a.cells)).max(1.0).powi(2);
-    for (what, at) in [
-        ("torque on the pinion as it begins to turn", 2.0),
-        ("a pitch later", 2.5),
-        ("and another", 3.0),
-    ] {
-        written.check(
-            what,
-            "one.RM3",
-            torque,
-            off,
-            "forces lie on the line of action: T z1 / z2",
-        );
-        if let Some(check) = written.checks.last_mut() {
-            check.at += &format!("\nat = {at:?}");
-        }
-    }
-    let turned = -2.0 * PI * f64::from(PITCHES) / f64::from(a.wheel);
-    let begun = close(a, &pair) * pair.pitch[0] / pair.pitch[1];
-    written.check(
-        "the wheel has turned by two of its pitches, but for play and what the teeth give way",
-        "two.UR3",
-        turned,
-        2.0 * begun / turned.abs() + 1e-4,
-        "as many teeth pass on both",
-    );
-    Ok(written)
-}
-
-/// Angle by which the pinion is turned until the teeth are pressed as the torque will press them `[rad]`.
-fn close(a: &Arguments, pair: &Pair) -> f64 {
+    // What the teeth give way under the torque, as a displacement along the line of action.
     let gives = pair.force(a) / a.width / (STIFFNESS * a.young);
-    0.25 * BACKLASH * a.module / pair.pitch[0] + gives / pair.base[0]
-}
-
-fn problem(a: &Arguments, pair: &Pair, title: &str) -> String {
-    let close = close(a, pair);
-    let turn = 2.0 * PI * f64::from(PITCHES) / f64::from(a.teeth);
+    // Until the teeth are pressed as the torque will press them.
+    let close = 0.25 * BACKLASH * a.module / pair.pitch[0] + gives / pair.base[0];
+    let pitches = f64::from(PITCHES);
+    let turned = -2.0 * PI * pitches / f64::from(a.wheel);
+    let begun = close * pair.pitch[0] / pair.pitch[1];
     let bore = |r: f64| 0.5 * (r - DEDENDUM * a.module) * MM;
     let positions = PITCHES * a.positions;
-    fill(
-        PROBLEM,
-        &[
-            ("title", title.to_string()),
-            ("width", number(a.width * MM)),
-            ("centres", number(pair.centres * MM)),
-            ("z1", a.teeth.to_string()),
-            ("z2", a.wheel.to_string()),
-            ("module", number(a.module * MM)),
-            ("bore1", number(bore(pair.pitch[0]))),
-            ("bore2", number(bore(pair.pitch[1]))),
-            ("backlash", number(BACKLASH * a.module * MM)),
-            ("cells", a.cells.to_string()),
-            ("across", (a.cells / 13).max(3).to_string()),
-            // Written in full: play is a matter of its last digits.
-            ("angle", format!("{:?}", PI + PI / f64::from(a.wheel))),
-            ("young", number(a.young * MPA)),
-            ("poisson", number(a.poisson)),
-            ("torque", number(a.torque * MM)),
-            ("pitches", PITCHES.to_string()),
-            ("close", format!("{close:?}")),
-            ("end", format!("{:?}", close + turn)),
-            ("positions", positions.to_string()),
-            ("half", (positions / 2).to_string()),
-        ],
-    )
-}
-
-fn tell(written: &mut Written, a: &Arguments, pair: &Pair) {
-    written.tell(
-        "centres",
-        format!(
-            "{} mm apart    m (z1 + z2) / 2",
-            digits(pair.centres * MM, 4)
-        ),
-    );
-    written.tell(
-        "torque on the pinion",
-        format!(
-            "{} Nm at every position    T z1 / z2",
-            digits(pair.torque(a), 4)
-        ),
-    );
-    written.tell(
-        "force of the teeth",
-        format!(
-            "{} N on the line of action    T / (r2 cos 20 deg)",
-            digits(pair.force(a), 4)
-        ),
-    );
-    written.tell(
-        "pairs in contact",
-        format!(
-            "{} in the mean    length of the path of contact over the base pitch",
-            digits(pair.ratio, 3)
-        ),
-    );
-    written.tell(
-        "largest pressure",
-        format!(
-            "about {} MPa where one pair carries all    Hertz at the pitch point",
-            digits(pair.pressure(a) * MPA, 3)
-        ),
-    );
-    written.notes.push(
-        "cells along the flanks resolve forces; for the pressure they have to be smaller than the half-width of contact".into(),
-    );
+    let off = OFF * (80.0 / f64::from(a.cells)).max(1.0).powi(2);
+    let numbers = [
+        ("z1", f64::from(a.teeth)),
+        ("z2", f64::from(a.wheel)),
+        ("module", a.module * MM),
+        ("wheel-Nm", a.torque),
+        ("torque", a.torque * MM),
+        ("centres", pair.centres * MM),
+        ("pinion-Nm", pair.torque(a)),
+        ("pinion", pair.torque(a) * MM),
+        ("force", pair.force(a)),
+        ("ratio", pair.ratio),
+        ("pressure", pair.pressure(a) * MPA),
+        ("off", off),
+        ("turned", turned),
+        ("turned-error", 2.0 * begun / turned.abs() + 1e-4),
+        ("width", a.width * MM),
+        ("bore1", bore(pair.pitch[0])),
+        ("bore2", bore(pair.pitch[1])),
+        ("backlash", BACKLASH * a.module * MM),
+        ("cells", f64::from(a.cells)),
+        ("across", f64::from((a.cells / 13).max(3))),
+        // Written in full: play is a matter of its last digits.
+        ("angle", PI + PI / f64::from(a.wheel)),
+        ("young", a.young * MPA),
+        ("poisson", a.poisson),
+        ("pitches", pitches),
+        ("close", close),
+        ("end", close + 2.0 * PI * pitches / f64::from(a.teeth)),
+        ("positions", f64::from(positions)),
+        ("half", f64::from(positions / 2)),
+    ];
+    Ok(Written::of(
+        TEMPLATE,
+        &Values {
+            numbers: &numbers,
+            ..Values::default()
+        },
+    ))
 }

@@ -2,26 +2,26 @@
 
 use std::f64::consts::PI;
 
-use super::quantity;
+use super::quantity::{self, STRESS};
 use crate::failure::Failure;
 
 /// What both bodies are made of.
 #[derive(Debug, Clone, clap::Args)]
 pub struct Materials {
     /// Young's modulus of the round body.
-    #[arg(long, value_name = "STRESS", default_value = "210GPa", value_parser = quantity::stress, allow_hyphen_values = true)]
+    #[arg(long, value_name = "STRESS", default_value = "210GPa", value_parser = quantity::of(STRESS), allow_hyphen_values = true)]
     pub young: f64,
     /// Poisson's ratio of the round body.
     #[arg(long, value_name = "NU", default_value = "0.3", value_parser = quantity::poisson)]
     pub poisson: f64,
     /// Young's modulus of the flat, if it is of another material.
-    #[arg(long, value_name = "STRESS", value_parser = quantity::stress, allow_hyphen_values = true)]
+    #[arg(long, value_name = "STRESS", value_parser = quantity::of(STRESS), allow_hyphen_values = true)]
     pub flat_young: Option<f64>,
     /// Poisson's ratio of the flat.
     #[arg(long, value_name = "NU", value_parser = quantity::poisson)]
     pub flat_poisson: Option<f64>,
     /// Yield stress of the softer body: a load that makes it flow is refused.
-    #[arg(long = "yield", value_name = "STRESS", value_parser = quantity::stress, allow_hyphen_values = true)]
+    #[arg(long = "yield", value_name = "STRESS", value_parser = quantity::of(STRESS), allow_hyphen_values = true)]
     pub strength: Option<f64>,
 }
 

@@ -63,7 +63,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
         free(path)?;
     }
     save(&problem, &written.problem)?;
-    save(&expected, &written.expected())?;
+    save(&expected, &written.expected)?;
     print::out(&told(&written, &problem, &expected))?;
     Ok(ExitCode::SUCCESS)
 }
@@ -90,23 +90,24 @@ fn save(path: &Path, text: &str) -> Result<(), Failure> {
 }
 
 fn told(written: &Written, problem: &Path, expected: &Path) -> String {
-    let widest = written
-        .told
-        .iter()
-        .map(|(name, _)| name.len())
-        .max()
-        .unwrap_or(0);
+    let figures = || {
+        written
+            .told
+            .lines()
+            .filter_map(|line| line.split_once(": "))
+    };
+    let widest = figures().map(|(name, _)| name.len()).max().unwrap_or(0);
     let mut text = print::wrap(&written.title, 0, WIDTH);
-    for (name, value) in &written.told {
+    for (name, value) in figures() {
         // A formula stands behind its value, which follows the name in a column of its own.
         let value = match value.split_once("    ") {
             Some((value, formula)) => format!("{value} ({formula})"),
-            None => value.clone(),
+            None => value.into(),
         };
         let lines = print::wrap(&value, widest + 4, WIDTH);
         text += &format!("  {name:<widest$}  {}", lines.trim_start());
     }
-    for note in &written.notes {
+    for note in written.notes.lines() {
         text += &print::wrap(&format!("note: {note}"), 0, WIDTH);
     }
     let (problem, expected) = (problem.display(), expected.display());

@@ -37,37 +37,35 @@ const UNITS: [(&str, f64, Dimension); 29] = [
 ];
 
 /// What a quantity is: its name, its dimension, and units in which people give it.
-type Kind = (&'static str, Dimension, &'static str);
-
-const LENGTH: Kind = ("a length", [1, 0, 0], "10mm, 25um");
-const FORCE: Kind = ("a force", [1, 1, -2], "100N, 20kN");
-const TORQUE: Kind = ("a torque", [2, 1, -2], "20Nm, 300N.mm");
-const LINE_LOAD: Kind = ("a force per length", [0, 1, -2], "100N/mm, 1kN/m");
-const STRESS: Kind = ("a stress", [-1, 1, -2], "210GPa, 250MPa");
-const COMPLIANCE: Kind = ("a wear rate", [1, -1, 2], "2.9e-8/MPa, 2.9e-5mm3/Nm");
-const MASS: Kind = ("a mass", [0, 1, 0], "1kg, 50g");
-const SPEED: Kind = ("a velocity", [1, 0, -1], "0.1m/s, 30mm/s");
+pub type Kind = (&'static str, Dimension, &'static str);
 
 /// A length above zero `[m]`.
-pub fn length(text: &str) -> Result<f64, String> {
-    of(text, LENGTH)
-}
-
+pub const LENGTH: Kind = ("a length", [1, 0, 0], "10mm, 25um");
 /// A force above zero `[N]`.
-pub fn force(text: &str) -> Result<f64, String> {
-    of(text, FORCE)
-}
-
+pub const FORCE: Kind = ("a force", [1, 1, -2], "100N, 20kN");
 /// A torque above zero `[Nm]`.
-pub fn torque(text: &str) -> Result<f64, String> {
-    of(text, TORQUE)
+pub const TORQUE: Kind = ("a torque", [2, 1, -2], "20Nm, 300N.mm");
+/// A force per length above zero, or a stiffness `[N/m]`.
+pub const LINE_LOAD: Kind = ("a force per length", [0, 1, -2], "100N/mm, 1kN/m");
+/// A stress or a modulus above zero `[Pa]`.
+pub const STRESS: Kind = ("a stress", [-1, 1, -2], "210GPa, 250MPa");
+/// Worn volume over load and path, above zero `[1/Pa]`.
+pub const WEAR: Kind = ("a wear rate", [1, -1, 2], "2.9e-8/MPa, 2.9e-5mm3/Nm");
+/// A mass above zero `[kg]`.
+pub const MASS: Kind = ("a mass", [0, 1, 0], "1kg, 50g");
+/// A velocity above zero `[m/s]`.
+pub const SPEED: Kind = ("a velocity", [1, 0, -1], "0.1m/s, 30mm/s");
+
+/// What reads a quantity of a kind.
+pub fn of(kind: Kind) -> impl Fn(&str) -> Result<f64, String> + Clone + Send + Sync {
+    move |text| read(text, kind)
 }
 
-/// A force, or a force per length; both are told apart by [`is_line_load`].
+/// A force, or a force per length; told apart by their units.
 pub fn load(text: &str) -> Result<Load, String> {
-    match of(text, FORCE) {
+    match read(text, FORCE) {
         Ok(force) => Ok(Load::Force(force)),
-        Err(said) => of(text, LINE_LOAD).map(Load::PerLength).map_err(|_| {
+        Err(said) => read(text, LINE_LOAD).map(Load::PerLength).map_err(|_| {
             said.replace(
                 "a force, such as",
                 "a force or a force per length, such as 100N/mm,",
@@ -83,31 +81,6 @@ pub enum Load {
     Force(f64),
     /// `[N/m]`
     PerLength(f64),
-}
-
-/// A force per length above zero, or a stiffness `[N/m]`.
-pub fn line_load(text: &str) -> Result<f64, String> {
-    of(text, LINE_LOAD)
-}
-
-/// A stress or a modulus above zero `[Pa]`.
-pub fn stress(text: &str) -> Result<f64, String> {
-    of(text, STRESS)
-}
-
-/// Worn volume over load and path, above zero `[1/Pa]`.
-pub fn wear(text: &str) -> Result<f64, String> {
-    of(text, COMPLIANCE)
-}
-
-/// A mass above zero `[kg]`.
-pub fn mass(text: &str) -> Result<f64, String> {
-    of(text, MASS)
-}
-
-/// A velocity above zero `[m/s]`.
-pub fn speed(text: &str) -> Result<f64, String> {
-    of(text, SPEED)
 }
 
 /// Poisson's ratio of a material that is neither auxetic nor incompressible.
@@ -126,7 +99,7 @@ pub fn friction(text: &str) -> Result<f64, String> {
     }
 }
 
-fn of(text: &str, (name, wanted, such): Kind) -> Result<f64, String> {
+fn read(text: &str, (name, wanted, such): Kind) -> Result<f64, String> {
     let text = text.trim();
     let split = number_ends(text);
     let Ok(value) = text[..split].parse::<f64>() else {
@@ -191,16 +164,16 @@ mod tests {
 
     #[test]
     fn units_are_those_that_are_typed() {
-        near(length("10mm"), 0.01);
-        near(length(" 2.5e1 µm"), 25e-6);
-        near(line_load("1kN/mm"), 1e6);
-        near(torque("300 N.mm"), 0.3);
-        near(stress("210GPa"), 210e9);
-        near(stress("1 N/mm2"), 1e6);
-        near(wear("2.9e-8/MPa"), 2.9e-14);
-        near(wear("2.9e-5 mm^3/Nm"), 2.9e-14);
-        near(wear("1 mm3/N/m"), 1e-9);
-        near(speed("36 m/min"), 0.6);
+        near(of(LENGTH)("10mm"), 0.01);
+        near(of(LENGTH)(" 2.5e1 µm"), 25e-6);
+        near(of(LINE_LOAD)("1kN/mm"), 1e6);
+        near(of(TORQUE)("300 N.mm"), 0.3);
+        near(of(STRESS)("210GPa"), 210e9);
+        near(of(STRESS)("1 N/mm2"), 1e6);
+        near(of(WEAR)("2.9e-8/MPa"), 2.9e-14);
+        near(of(WEAR)("2.9e-5 mm^3/Nm"), 2.9e-14);
+        near(of(WEAR)("1 mm3/N/m"), 1e-9);
+        near(of(SPEED)("36 m/min"), 0.6);
         assert_eq!(load("3N/mm"), Ok(Load::PerLength(3e3)));
         assert_eq!(load("3kN"), Ok(Load::Force(3e3)));
     }
@@ -215,7 +188,7 @@ mod tests {
             ("10MPa", "`MPa` is not the unit of a length"),
             ("nan mm", "not above zero"),
         ] {
-            let said = length(text).expect_err(text);
+            let said = of(LENGTH)(text).expect_err(text);
             assert!(said.contains(part), "{text}: {said}");
         }
         assert!(load("3mm").is_err_and(|e| e.contains("a force per length")));

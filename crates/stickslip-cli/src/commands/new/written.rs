@@ -1,4 +1,8 @@
 //! What is written: a template with its numbers, what is expected of it, and what is told.
+//!
+//! A template has parts, each after a line `#: name`: `title`, `told` (lines of a name and a figure), `notes`, `expected` and `problem`. In them `@name@` stands
+//! for a number with eight digits, more than any of it is worth, or for a text, `@name:4@` for a number with four, `@name:0@` for a whole one and
+//! `@name:all@` for one with all its digits. What is between lines `@if name@`, `@else@` and `@end@` depends on whether that holds.
 
 use crate::style::digits;
 
@@ -7,90 +11,99 @@ pub const MM: f64 = 1e3;
 /// Megapascals in a pascal; also N/mm in a N/m times [`MM`].
 pub const MPA: f64 = 1e-6;
 
-/// One problem with what is known of it.
+/// What stands for the names in a template.
 #[derive(Debug, Default)]
+pub struct Values<'a> {
+    pub numbers: &'a [(&'a str, f64)],
+    pub texts: &'a [(&'a str, String)],
+    pub holds: &'a [(&'a str, bool)],
+}
+
+/// One problem with what is known of it.
+#[derive(Debug)]
 pub struct Written {
     /// What it is, in a line.
     pub title: String,
     /// The problem file.
     pub problem: String,
-    /// Checks of its results.
-    pub checks: Vec<Check>,
-    /// Figures: a name and a value with its unit and formula.
-    pub told: Vec<(&'static str, String)>,
-    /// What else is to be said.
-    pub notes: Vec<String>,
-}
-
-/// One line of what is expected.
-#[derive(Debug)]
-pub struct Check {
-    /// What.
-    pub what: &'static str,
-    /// Where it is in the results: lines of TOML.
-    pub at: String,
-    /// What it should be.
-    pub value: f64,
-    /// By which part of it results may differ.
-    pub relative: f64,
-    /// Where the number comes from.
-    pub source: String,
+    /// The file of what is expected.
+    pub expected: String,
+    /// Figures: lines of a name and a value with its unit and formula.
+    pub told: String,
+    /// What else is to be said, a line each.
+    pub notes: String,
 }
 
 impl Written {
-    /// The file of what is expected.
-    pub fn expected(&self) -> String {
-        let mut text = format!(
-            "# What theory says of it: {}.\nformat = 1\nsource = \"closed forms\"\n",
-            self.title
-        );
-        for check in &self.checks {
-            text += &format!(
-                "\n[[check]]\nwhat = \"{}\"\n{}\nvalue = {}\nrelative = {}\nsource = \"{}\"\n",
-                check.what,
-                check.at,
-                number(check.value),
-                digits(check.relative, 2),
-                check.source
-            );
+    /// A template with its values.
+    pub fn of(template: &str, values: &Values) -> Written {
+        let part = |name: &str, title: &str| {
+            let begun = template.split_once(&format!("#: {name}\n"));
+            let text = begun.map_or("", |(_, rest)| rest);
+            let text = text.split("#: ").next().unwrap_or_default();
+            values.fill(&text.replace("@title@", title))
+        };
+        let title = part("title", "").trim_end().to_string();
+        let checks = part("expected", &title);
+        Written {
+            problem: part("problem", &title),
+            expected: format!(
+                "# What theory says of it: {title}.\nformat = 1\nsource = \"closed forms\"\n{checks}"
+            ),
+            told: part("told", &title),
+            notes: part("notes", &title),
+            title,
+        }
+    }
+}
+
+impl Values<'_> {
+    fn fill(&self, template: &str) -> String {
+        let mut text = String::new();
+        let mut shown = true;
+        for line in template.lines() {
+            match line.strip_prefix("@if ") {
+                Some(name) => shown = *named(self.holds, name.trim_end_matches('@')),
+                None if line == "@else@" => shown = !shown,
+                None if line == "@end@" => shown = true,
+                None if !shown => {}
+                None => {
+                    for (i, word) in line.split('@').enumerate() {
+                        text += &if i % 2 == 1 {
+                            self.of(word)
+                        } else {
+                            word.into()
+                        };
+                    }
+                    text.push('\n');
+                }
+            }
         }
         text
     }
 
-    /// Adds a check of a column of the history, at its end.
-    pub fn check(
-        &mut self,
-        what: &'static str,
-        column: &str,
-        value: f64,
-        relative: f64,
-        source: impl Into<String>,
-    ) {
-        self.checks.push(Check {
-            what,
-            at: format!("history = \"{column}\""),
-            value,
-            relative,
-            source: source.into(),
-        });
-    }
-
-    /// Adds a figure.
-    pub fn tell(&mut self, name: &'static str, value: String) {
-        self.told.push((name, value));
+    fn of(&self, word: &str) -> String {
+        if let Some((_, text)) = self.texts.iter().find(|(name, _)| *name == word) {
+            return text.clone();
+        }
+        let (name, form) = word.split_once(':').unwrap_or((word, "8"));
+        let x = *named(self.numbers, name);
+        match form {
+            "all" => format!("{x:?}"),
+            "0" => format!("{x:.0}"),
+            _ => digits(x, form.parse().unwrap_or(8)),
+        }
     }
 }
 
-/// A number as files have it: eight digits, more than any of it is worth.
+fn named<'a, T>(all: &'a [(&str, T)], name: &str) -> &'a T {
+    let found = all.iter().find(|(known, _)| *known == name);
+    &found
+        .unwrap_or_else(|| panic!("a template has a value for `{name}`"))
+        .1
+}
+
+/// A number as files have it.
 pub fn number(x: f64) -> String {
     digits(x, 8)
-}
-
-/// A template with `@name@` replaced by what stands for it.
-pub fn fill(template: &str, values: &[(&str, String)]) -> String {
-    values
-        .iter()
-        .fold(template.to_string(), |text, (name, value)| {
-            text.replace(&format!("@{name}@"), value)
-        })
 }

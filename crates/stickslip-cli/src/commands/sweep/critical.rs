@@ -4,7 +4,8 @@ use std::path::Path;
 
 use stickslip::io::write_atomically;
 
-use super::table::{Row, quoted};
+use super::done::Row;
+use super::table::line;
 use crate::failure::Failure;
 
 /// Width to which a critical value is known, relative to the step of the axis.
@@ -92,15 +93,11 @@ pub fn write(
     quantity: &str,
     found: &[(Vec<String>, [f64; 2])],
 ) -> Result<(), Failure> {
-    let line =
-        |cells: Vec<String>| cells.into_iter().map(quoted).collect::<Vec<_>>().join(",") + "\n";
-    let mut names = axes.to_vec();
-    names.push(quantity.into());
+    let names = axes.iter().cloned().chain([quantity.into()]);
     let mut text = line(names);
     for (others, [value, there]) in found {
-        let mut cells = others.clone();
-        cells.extend([value, there].map(|v| format!("{v:?}")));
-        text += &line(cells);
+        let numbers = [value, there].map(|v| format!("{v:?}"));
+        text += &line(others.iter().cloned().chain(numbers));
     }
     write_atomically(path, text.as_bytes()).map_err(Failure::from)
 }

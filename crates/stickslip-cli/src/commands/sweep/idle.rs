@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::table::Row;
+use super::done::Row;
 
 /// Positions of the axes that change nothing, as far as the runs that went to their end show.
 pub fn idle(axes: usize, rows: &[Row]) -> Vec<usize> {

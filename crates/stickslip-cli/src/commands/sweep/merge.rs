@@ -3,14 +3,13 @@
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use stickslip::Error;
 use stickslip::results::FileClaim;
 
-use super::effort::EffortTable;
+use super::done::{Done, ended};
 use super::plan::{folder_of_run, runs};
-use super::shard::{Done, Shard};
+use super::shard::Shard;
 use super::table::Table;
 use crate::failure::{Failure, Outcome};
 
@@ -53,21 +52,12 @@ pub fn merge(
     }
     tell_processors(&rows, tell);
 
-    let axes = first.sweep.axes.iter().map(|axis| axis.path.clone());
+    let axes = first.sweep.plan.axes.iter().map(|axis| axis.path.clone());
     let mut table = Table::new(output, axes.collect(), &first.sweep.columns);
     spare_inputs(first, &table.path)?;
     table.try_file()?;
     let _claim = FileClaim::take(&table.path)?;
-    let mut effort = EffortTable::beside(&table.path);
-    let all = rows.len();
-    let failed = rows.values().filter(|(_, done)| done.failed).count();
-    let poor = rows.values().any(|(_, done)| done.poor);
-    for (_, done) in rows.into_values() {
-        table.add_quantities(&done.names);
-        table.add(done.row.clone());
-        effort.add(done.effort.clone());
-    }
-    effort.write()?;
+    rows.values().for_each(|(_, done)| table.add(done));
     table.write()?;
     let parts = match shards.len() {
         1 => "1 shard".to_string(),
@@ -75,18 +65,10 @@ pub fn merge(
     };
     tell(&format!(
         "{} of {parts}; table in {}",
-        runs(all),
+        runs(rows.len()),
         table.path.display()
     ));
-    match failed {
-        0 if poor => Ok(ExitCode::from(crate::failure::CHECK)),
-        0 => Ok(ExitCode::SUCCESS),
-        failed => Err(Failure::Runs {
-            failed,
-            all,
-            table: table.path,
-        }),
-    }
+    ended(table.rows().iter(), table.path.clone())
 }
 
 /// Refuses to write over a file that the sweep reads.
@@ -187,7 +169,7 @@ fn one_row_a_run(shards: &[Shard]) -> Result<Rows<'_>, Failure> {
 
 /// Refuses to make half of a table: says which runs are missing, and whose they are.
 fn refuse_missing(shards: &[Shard], rows: &Rows) -> Result<(), Failure> {
-    let count = shards.first().map_or(0, |shard| shard.sweep.count());
+    let count = shards.first().map_or(0, |shard| shard.sweep.plan.count());
     let missing: Vec<usize> = (0..count).filter(|run| !rows.contains_key(run)).collect();
     if missing.is_empty() {
         return Ok(());

@@ -1,8 +1,8 @@
 //! `sweep`: a problem file or a deck, many values, one table; in one process, or in parts that are merged.
 
-mod begun;
 mod columns;
 mod critical;
+mod done;
 mod effort;
 mod idle;
 mod merge;
@@ -13,11 +13,11 @@ mod table;
 mod values;
 
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 use std::time::Instant;
 
 use stickslip::Error;
 use stickslip::assess::doctor::Severity;
+use stickslip::io::drop_leftovers;
 use stickslip::newton::condensed::Library;
 use stickslip::results::FileClaim;
 
@@ -27,13 +27,12 @@ use crate::failure::{Failure, Outcome};
 use crate::input::Case;
 use crate::progress::found;
 use crate::voice::{Heartbeat, ProgressPrinter};
-use begun::{Begun, Stand};
 use columns::Columns;
-use effort::EffortTable;
+use done::{Done, Row, ended};
 use one::{Ended, Shared, analyse};
 use plan::{Plan, folder_of_run, runs};
-use shard::{Done, Share, Sweep, Work, processor};
-use table::{Row, Table};
+use shard::{Shard, Share, Sweep, processor};
+use table::Table;
 
 /// Run an analysis for many values and write one table: a row a run.
 #[derive(Debug, clap::Args)]
@@ -167,57 +166,59 @@ fn whole(mut all: Runs, files: &[PathBuf], output: PathBuf) -> Outcome {
     let (plan, arguments) = (all.plan, all.arguments);
     let axes = plan.axes.iter().map(|axis| axis.path.clone()).collect();
     let mut table = Table::new(output, axes, &arguments.column);
-    let mut effort = EffortTable::beside(&table.path);
     // That the file cannot be written should not be found after the first run.
     table.try_file()?;
     let _claim = FileClaim::take(&table.path)?;
+    drop_leftovers(&table.path)?;
     all.tell(&heading(plan));
-    let begun = Begun::of(files, plan, &table.path)?;
-    let mut done = 0;
-    let stand = match arguments.resume {
-        true => begun.stand()?,
-        false => Stand::New,
-    };
-    if stand != Stand::New {
-        done = table.take_over(|run| {
-            let values = plan.values(run).into_iter();
-            values.map(str::to_string).collect()
-        })?;
-        effort.take_over(done);
-        all.tell(&format!("{} in the table already", runs(done)));
-    }
-    if stand == Stand::Over && done < plan.count() {
-        return Err(begun.unknown().into());
-    }
-    begun.write()?;
-    all.goes_on(done > 0);
-
+    let folder = table.path.with_extension("runs");
     let mut first = 0.0;
-    let (mut failed, mut poor) = table.not_done();
-    for run in done..plan.count() {
-        let begun = Instant::now();
-        let over = all.make(run);
-        if matches!(over, Err(Failure::Library(Error::Interrupted(_)))) {
-            all.tell(&format!(
-                "the table in {} has the runs before",
-                table.path.display()
-            ));
+    if arguments.resume && !Shard::is_one(&folder) && table.path.is_file() {
+        all.complete(&mut table)?;
+    } else {
+        if !arguments.resume {
+            Shard::remove(&folder)?;
         }
-        let over = over?;
-        if run == done {
-            first = begun.elapsed().as_secs_f64();
+        // Columns, and whether results are kept, are no matter of what is known of runs.
+        let sweep = Sweep::of(plan, files, &[], false)?;
+        let shard = Shard::begin(&folder, sweep, Share { index: 1, of: 1 })?;
+        let mut shard = shard.map_err(|what| {
+            shard::fault(&table.path, &format!("this is no table of the same sweep: {what}; rows of both do not belong in one table; run it anew into another file"))
+        })?;
+        let before = (0..plan.count()).take_while(|run| shard.done.contains_key(run));
+        let before = before.count();
+        if before > 0 {
+            shard
+                .done
+                .range(..before)
+                .for_each(|(_, done)| table.add(done));
+            table.write()?;
+            all.tell(&format!("{} in the table already", runs(before)));
         }
-        failed += usize::from(over.failed);
-        poor += usize::from(over.poor);
-        table.add_quantities(&over.names);
-        effort.add(over.effort);
-        effort.write()?;
-        table.push(over.row)?;
+        all.goes_on(before > 0);
+        for run in before..plan.count() {
+            let begun = Instant::now();
+            let over = all.make(run);
+            if matches!(over, Err(Failure::Library(Error::Interrupted(_)))) {
+                all.tell(&format!(
+                    "the table in {} has the runs before",
+                    table.path.display()
+                ));
+            }
+            let over = over?;
+            if run == before {
+                first = begun.elapsed().as_secs_f64();
+            }
+            table.add(&over);
+            shard.push(run, over)?;
+            table.write()?;
+        }
     }
     if let Some(quantity) = &arguments.critical {
         all.find_critical(&table, quantity)?;
     }
-    begun.end();
+    // What is left would only be found done when the sweep were to go on.
+    let _ = Shard::remove(&folder);
     for axis in idle::idle(plan.axes.len(), table.rows()) {
         all.tell(&format!(
             "{} changes nothing: all runs that differ in it alone have the same results to the last digit. Is it a key of what acts in no step, or that another key overrides?",
@@ -230,7 +231,7 @@ fn whole(mut all: Runs, files: &[PathBuf], output: PathBuf) -> Outcome {
         started.elapsed().as_secs_f64(),
         table.path.display()
     ));
-    ended(failed, plan.count(), poor, table.path)
+    ended(table.rows().iter(), table.path.clone())
 }
 
 /// One part of the runs, in a folder of its own.
@@ -262,26 +263,24 @@ fn part(mut all: Runs, files: &[PathBuf], output: &Path, share: Share) -> Outcom
             "looking whether {holder}, which has this shard, still lives"
         ));
     };
-    let mut work = Work::begin(&folder, sweep, share, &waits)?;
-    all.shared.dead.clone_from(&work.dead);
-    let done = &work.shard.done;
-    if !done.is_empty() {
+    let (_lease, dead) = shard::take(&folder, &waits)?;
+    let shard = Shard::begin(&folder, sweep, share)?;
+    let mut shard = shard.map_err(|what| shard::another(&folder, &what))?;
+    all.shared.dead = dead;
+    if !shard.done.is_empty() {
         all.tell(&format!(
             "{} in {} already",
-            runs(done.len()),
+            runs(shard.done.len()),
             folder.display()
         ));
     }
-    all.goes_on(done.values().any(|done| !done.names.is_empty()));
+    all.goes_on(shard.done.values().any(|done| !done.names.is_empty()));
     for &run in &own {
-        if !work.shard.done.contains_key(&run) {
+        if !shard.done.contains_key(&run) {
             let over = all.make(run)?;
-            work.push(run, over)?;
+            shard.push(run, over)?;
         }
     }
-    let done = work.shard.done.values();
-    let failed = done.clone().filter(|done| done.failed).count();
-    let poor = done.filter(|done| done.poor).count();
     all.tell(&format!(
         "{} in {:.3} s; when all shards are there: stickslip sweep --merge {} -o {}",
         runs(own.len()),
@@ -289,16 +288,7 @@ fn part(mut all: Runs, files: &[PathBuf], output: &Path, share: Share) -> Outcom
         parts.display(),
         output.display()
     ));
-    ended(failed, own.len(), poor, work.shard.rows_file())
-}
-
-/// What a sweep ends with, of which so many runs failed, and so many did not pass the quality gate.
-fn ended(failed: usize, all: usize, poor: usize, table: PathBuf) -> Outcome {
-    match failed {
-        0 if poor > 0 => Ok(ExitCode::from(crate::failure::CHECK)),
-        0 => Ok(ExitCode::SUCCESS),
-        failed => Err(Failure::Runs { failed, all, table }),
-    }
+    ended(shard.done.values().map(|done| &done.row), folder)
 }
 
 /// The runs of a sweep, made one after the other.
@@ -318,6 +308,18 @@ impl Runs<'_> {
     fn tell(&self, text: &str) {
         if !self.arguments.quiet {
             self.voice.line(text);
+        }
+    }
+
+    /// Takes over a table that nothing beside it says to be going on: it ought to be complete.
+    fn complete(&self, table: &mut Table) -> Result<(), Failure> {
+        let plan = self.plan;
+        let done =
+            table.take_over(|run| plan.values(run).into_iter().map(str::to_string).collect())?;
+        self.tell(&format!("{} in the table already", runs(done)));
+        match done < plan.count() {
+            true => Err(shard::fault(&table.path, "rows are missing, and nothing beside this table says that they are of the same sweep: its folder `.runs` was removed; without `--resume` it is run anew").into()),
+            false => Ok(()),
         }
     }
 
@@ -345,7 +347,7 @@ impl Runs<'_> {
         let mut found = Vec::new();
         for bracket in critical::brackets(table.rows(), quantity) {
             let chosen = others.iter().zip(&bracket.others);
-            let mut fixed = self.plan.fixed().to_vec();
+            let mut fixed = self.plan.fixed.clone();
             fixed.extend(chosen.map(|(axis, value)| format!("{axis}={value}")));
             let mut run = |value: f64| {
                 let mut overrides = fixed.clone();
@@ -392,7 +394,7 @@ impl Runs<'_> {
             return Err(refusal);
         }
         self.goes_on(!columns.names.is_empty());
-        let (outcome, poor) = (ended.outcome(), ended.is_poor());
+        let outcome = ended.outcome();
         let Ended { error, summary } = ended;
         if let Some(stopped @ Failure::Library(Error::Interrupted(_))) = error {
             return Err(stopped);
@@ -426,8 +428,6 @@ impl Runs<'_> {
             effort: effort::line(run + 1, seconds, summary.as_ref()),
             row: row.with_summary(summary),
             names: columns.names,
-            failed: error.is_some(),
-            poor,
             processor: processor(),
         })
     }

@@ -34,11 +34,6 @@ pub struct Ended {
 }
 
 impl Ended {
-    /// Whether it did not pass the quality gate.
-    pub fn is_poor(&self) -> bool {
-        self.summary.as_ref().is_some_and(|s| s.quality.failed())
-    }
-
     /// `done`, what the quality gate found, or why not, in one line.
     pub fn outcome(&self) -> String {
         let quality = self.summary.as_ref().map(|s| &s.quality);

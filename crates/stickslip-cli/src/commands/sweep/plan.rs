@@ -12,14 +12,14 @@ use super::values::{self, Axis, MOST_RUNS};
 use crate::failure::Failure;
 
 /// The runs: what is the same in all, and what differs.
-#[derive(Debug)]
+#[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Plan {
-    fixed: Vec<String>,
+    /// The changes that are the same in all.
+    pub fixed: Vec<String>,
     /// What differs.
     pub axes: Vec<Axis>,
     /// Whether axes run side by side instead of in all combinations.
     pub zip: bool,
-    count: usize,
 }
 
 impl Plan {
@@ -52,7 +52,7 @@ impl Plan {
                 "give all values of a key in one --set".into(),
             ));
         }
-        let count = match zip {
+        match zip {
             true => side_by_side(&axes)?,
             false => product(&axes)?,
         };
@@ -60,18 +60,15 @@ impl Plan {
             fixed: fix.to_vec(),
             axes,
             zip,
-            count,
         })
-    }
-
-    /// The changes that are the same in all.
-    pub fn fixed(&self) -> &[String] {
-        &self.fixed
     }
 
     /// Number of runs.
     pub fn count(&self) -> usize {
-        self.count
+        match self.zip {
+            true => self.axes.first().map_or(0, |axis| axis.values.len()),
+            false => self.axes.iter().map(|axis| axis.values.len()).product(),
+        }
     }
 
     /// The values of a run, counted from 0, in the order of the axes. The last axis changes fastest.
@@ -106,7 +103,9 @@ impl Plan {
             let problem = document.problem();
             problem.map(|problem| document.inputs(&problem))
         };
-        let checked = (0..self.count).into_par_iter().map(|run| (run, read(run)));
+        let checked = (0..self.count())
+            .into_par_iter()
+            .map(|run| (run, read(run)));
         let checked = checked.fold(Checked::default, |known, (run, read)| known.with(run, read));
         let Checked { mut failed, files } = checked.reduce(Checked::default, Checked::and);
         failed.sort_by_key(|(run, _)| *run);
@@ -126,7 +125,7 @@ impl Plan {
         }
         let mut findings: Vec<Diagnostic> = found
             .into_iter()
-            .map(|(finding, run, times)| match times == self.count {
+            .map(|(finding, run, times)| match times == self.count() {
                 true => finding,
                 false => self.in_run(finding, run),
             })
@@ -148,7 +147,7 @@ impl Plan {
         let place = format!(
             "in run {} of {}: {}",
             run + 1,
-            self.count,
+            self.count(),
             values.join(", ")
         );
         let help = match &finding.help {

@@ -1,67 +1,14 @@
 //! The table of a sweep: a row a run, as CSV.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use serde::{Deserialize, Serialize};
 use stickslip::Error;
 use stickslip::error::IoError;
 use stickslip::io::csv::split;
 use stickslip::io::{own, write_atomically};
-use stickslip::results::Summary;
 
-/// What is known of a run.
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct Row {
-    /// The values of the axes.
-    pub values: Vec<String>,
-    /// `done`, or why not.
-    pub outcome: String,
-    /// Increments, iterations and cut-backs; none if the model could not be built.
-    pub counts: Option<[usize; 3]>,
-    /// The last row of the history.
-    #[serde(with = "in_words")]
-    pub last: BTreeMap<String, f64>,
-}
-
-/// Numbers as text: those of JSON know no NaN.
-mod in_words {
-    use std::collections::BTreeMap;
-
-    use serde::de::Error;
-    use serde::{Deserialize, Deserializer, Serializer};
-
-    pub fn serialize<S: Serializer>(
-        numbers: &BTreeMap<String, f64>,
-        out: S,
-    ) -> Result<S::Ok, S::Error> {
-        out.collect_map(numbers.iter().map(|(name, x)| (name, format!("{x:e}"))))
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(
-        from: D,
-    ) -> Result<BTreeMap<String, f64>, D::Error> {
-        let words: BTreeMap<String, String> = Deserialize::deserialize(from)?;
-        let number =
-            |(name, word): (String, String)| Ok((name, word.parse().map_err(Error::custom)?));
-        words.into_iter().map(number).collect()
-    }
-}
-
-impl Row {
-    /// Takes over what a summary says.
-    pub fn with_summary(mut self, summary: Option<Summary>) -> Self {
-        if let Some(s) = summary {
-            self.counts = Some([
-                s.attempts.increments,
-                s.attempts.iterations,
-                s.attempts.cutbacks,
-            ]);
-            self.last = s.last;
-        }
-        self
-    }
-}
+use super::done::{Done, Row};
+use super::effort;
 
 /// The rows so far and the file they are written to.
 #[derive(Debug)]
@@ -74,6 +21,8 @@ pub struct Table {
     rows: Vec<Row>,
     /// The rows as text. Only a new column changes those that are there.
     text: String,
+    /// The rows of the table beside it, of what runs took.
+    effort: String,
 }
 
 /// Columns between the outcome and the quantities of the history.
@@ -89,6 +38,7 @@ impl Table {
             grows: true,
             rows: Vec::new(),
             text: String::new(),
+            effort: String::new(),
         };
         table.add_quantities(quantities);
         table.grows = quantities.is_empty();
@@ -96,7 +46,7 @@ impl Table {
     }
 
     /// Adds columns for quantities of a history, unless they were chosen.
-    pub fn add_quantities(&mut self, names: &[String]) {
+    fn add_quantities(&mut self, names: &[String]) {
         let before = self.quantities.len();
         for name in names {
             if self.grows && !self.quantities.contains(name) {
@@ -160,17 +110,8 @@ impl Table {
         }
         let count = rows.len();
         self.add_quantities(&quantities);
-        rows.into_iter().for_each(|row| self.add(row));
+        rows.into_iter().for_each(|row| self.add_row(row));
         Ok(count)
-    }
-
-    /// How many rows are those of runs that failed, and how many of runs that did not pass the quality gate.
-    pub fn not_done(&self) -> (usize, usize) {
-        let poor = |row: &&Row| row.outcome.starts_with("quality: ");
-        let done = |row: &&Row| row.outcome == "done";
-        let poor = self.rows.iter().filter(poor).count();
-        let done = self.rows.iter().filter(done).count();
-        (self.rows.len() - poor - done, poor)
     }
 
     fn read(&self, cells: &[String], quantities: &[String]) -> Row {
@@ -192,21 +133,13 @@ impl Table {
         }
     }
 
-    /// Adds a row and writes the table again, aside and renamed, so that the file is complete after every run and a
-    /// reader never sees half of it.
-    ///
-    /// # Errors
-    /// [`Error::Io`].
-    pub fn push(&mut self, row: Row) -> Result<(), Error> {
-        self.add(row);
-        self.write()
-    }
-
-    /// Writes the table, aside and renamed.
+    /// Writes the table and that of what runs took, aside and renamed: a reader never sees half of them.
     ///
     /// # Errors
     /// [`Error::Io`].
     pub fn write(&self) -> Result<(), Error> {
+        let effort = effort::head() + &self.effort;
+        write_atomically(&self.path.with_extension("effort.csv"), effort.as_bytes())?;
         write_atomically(&self.path, (self.header() + &self.text).as_bytes())
     }
 
@@ -215,8 +148,14 @@ impl Table {
         &self.rows
     }
 
-    /// Adds a row.
-    pub fn add(&mut self, row: Row) {
+    /// Adds a run that is over.
+    pub fn add(&mut self, done: &Done) {
+        self.add_quantities(&done.names);
+        self.add_row(done.row.clone());
+        self.effort += &format!("{}\n", done.effort);
+    }
+
+    fn add_row(&mut self, row: Row) {
         self.text += &self.line(self.rows.len(), &row);
         self.rows.push(row);
     }
@@ -244,12 +183,13 @@ impl Table {
     }
 }
 
-fn line(cells: impl Iterator<Item = String>) -> String {
+/// A line of a table.
+pub fn line(cells: impl Iterator<Item = String>) -> String {
     let cells: Vec<String> = cells.map(quoted).collect();
     cells.join(",") + "\n"
 }
 
-pub fn quoted(cell: String) -> String {
+fn quoted(cell: String) -> String {
     if cell.contains([',', '"', '\n', '\r', '#']) {
         format!("\"{}\"", cell.replace('"', "\"\""))
     } else {
@@ -294,13 +234,13 @@ mod tests {
             text(&table),
             "run,\"a.'b,c'\",outcome,increments,iterations,cutbacks\n"
         );
-        table.add(row("[1,2]", "no \"set\" b, c", &[]));
+        table.add_row(row("[1,2]", "no \"set\" b, c", &[]));
         table.add_quantities(&strings(&["U", "B"]));
         table
             .rows
             .push(row("3", "done", &[("B", -0.1), ("U", 2.0)]));
         table.add_quantities(&strings(&["B", "V"]));
-        table.add(row("4", "done", &[("V", f64::NAN)]));
+        table.add_row(row("4", "done", &[("V", f64::NAN)]));
         assert_eq!(
             text(&table),
             "run,\"a.'b,c'\",outcome,increments,iterations,cutbacks,U,B,V\n\
@@ -314,7 +254,7 @@ mod tests {
     fn chosen_quantities_stay_as_they_are() {
         let mut table = Table::new("t.csv".into(), strings(&["a"]), &strings(&["V", "U", "V"]));
         table.add_quantities(&strings(&["B"]));
-        table.add(row("1", "done", &[("B", 1.0), ("U", 5e-324)]));
+        table.add_row(row("1", "done", &[("B", 1.0), ("U", 5e-324)]));
         let all = text(&table);
         assert!(all.contains(",cutbacks,V,U\n"), "{all}");
         assert!(all.ends_with(",0,,5e-324\n"), "{all}");

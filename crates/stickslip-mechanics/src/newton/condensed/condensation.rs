@@ -8,9 +8,9 @@ use super::file;
 use super::identity::{Identity, Part};
 use super::library::{Library, Reserved, Source};
 use super::substructure::{ArtificialSprings, Seconds, Substructure, SweptPart};
-use crate::lease::Lease;
 use crate::linear::{Analysed, Engine, FactorEffort, LinearError, Matrix, Workspace};
 use crate::math::vector::dot;
+use crate::owner::Owner;
 
 /// What is to be condensed: known before any arithmetic.
 #[derive(Debug)]
@@ -217,7 +217,7 @@ type Got = (Arc<Substructure>, Source, Option<String>);
 /// Who makes a part that nobody has.
 enum Maker {
     /// This process, with a lease if there is a directory.
-    Here(Option<Lease>),
+    Here(Option<Owner>),
     /// Another.
     Elsewhere,
 }
@@ -249,7 +249,7 @@ impl Plan {
         let makers: Vec<Maker> = parts.iter().map(reserve).collect();
         let new = parts.iter().filter(|part| !part.is_known());
         let workspace = Workspace::of(new.map(|part| part.ordered().longest()));
-        let make = |part: &Planned, ordered: &Arc<dyn Analysed>, lease: Option<Lease>| {
+        let make = |part: &Planned, ordered: &Arc<dyn Analysed>, lease: Option<Owner>| {
             let of_matrix = Part {
                 matrix,
                 points: part.points,

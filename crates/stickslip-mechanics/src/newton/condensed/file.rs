@@ -6,8 +6,8 @@ use std::path::Path;
 
 use super::identity::{Identity, Part};
 use super::substructure::{Floating, Seconds, Substructure, SweptPatterns};
-use crate::lease;
 use crate::linear::{Compliance, Digest, PartialFactor};
+use crate::owner;
 
 /// Names the format.
 const MAGIC: &[u8; 8] = b"slipsub\0";
@@ -57,7 +57,7 @@ pub(super) type Whole<'a> = (&'a Substructure, &'a PartialFactor);
 
 /// Writes a substructure aside and renames it: other processes see all of it or nothing.
 pub(super) fn write(path: &Path, whole: Whole) -> io::Result<()> {
-    let aside = lease::aside(path);
+    let aside = owner::aside(path);
     let written = write_all(&aside, whole).and_then(|()| fs::rename(&aside, path));
     if written.is_err() {
         // The first error is the one to report.

@@ -6,9 +6,9 @@ use super::file;
 use super::identity::{Identity, Part};
 use super::substructure::Substructure;
 use crate::error::Error;
-use crate::lease::{self, Asked, Lease, Waiting};
 use crate::linear::{Analysed, BlockCsr, Engine, LinearError};
 use crate::machine::total_memory;
+use crate::owner::{self, Owner, Refused, Waiting};
 
 /// Substructures and analyses made before, for all runs of a process, and with a directory for those of others too.
 ///
@@ -42,7 +42,7 @@ pub enum Source {
 /// Whether this process may make a substructure.
 pub(super) enum Reserved {
     /// It may, and others wait for it as long as there is a lease.
-    Ours(Option<Lease>),
+    Ours(Option<Owner>),
     /// Another process is making it.
     Theirs,
 }
@@ -134,13 +134,13 @@ impl Library {
         let Some(path) = self.path(identity) else {
             return Reserved::Ours(None);
         };
-        match Lease::ask(&path.with_extension(LEASE)) {
-            Asked::Ours(lease) => {
-                lease::drop_leftovers(&path);
+        match Owner::lease(&path.with_extension(LEASE)) {
+            Ok(lease) => {
+                owner::drop_leftovers(&path);
                 Reserved::Ours(Some(lease))
             }
-            Asked::Theirs => Reserved::Theirs,
-            Asked::Nobodys => Reserved::Ours(None),
+            Err(Refused::Taken(_)) => Reserved::Theirs,
+            Err(Refused::Io(_)) => Reserved::Ours(None),
         }
     }
 
@@ -151,7 +151,7 @@ impl Library {
         identity: Identity,
         part: &Part,
         waits: &dyn Fn() -> bool,
-    ) -> (Found, Option<Lease>) {
+    ) -> (Found, Option<Owner>) {
         let mut waiting = Waiting::default();
         let mut note = None;
         loop {

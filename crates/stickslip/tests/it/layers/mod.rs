@@ -27,9 +27,9 @@ const LIBRARY: &[(&str, &[&[&str]])] = &[
             &[
                 "error",
                 "keep",
-                "lease",
                 "machine",
                 "math",
+                "owner",
                 "references",
                 "registry",
             ],

@@ -1,4 +1,4 @@
-//! Against the built-in engine, where the program of the ranks has been built.
+//! Against the built-in engine. These tests are ignored unless asked for, since they need the program of the ranks; `.ci/run` builds it and runs them.
 
 use std::sync::Arc;
 
@@ -54,16 +54,8 @@ impl Matrix for Unkept {
     }
 }
 
-/// The engine; `None` and a word where its program has not been built. Whatever else is wrong with it is a failure.
-fn start(options: MumpsOptions) -> Option<Arc<Mumps>> {
-    match Mumps::start(options) {
-        Ok(engine) => Some(Arc::new(engine)),
-        Err(LinearError::Engine { message, .. }) if message.contains("a program of its own") => {
-            println!("NOT RUN: {message}");
-            None
-        }
-        Err(error) => panic!("{error}"),
-    }
+fn start(options: MumpsOptions) -> Arc<Mumps> {
+    Arc::new(Mumps::start(options).unwrap_or_else(|error| panic!("{error}")))
 }
 
 type Factored = (Box<dyn Interior>, Schur);
@@ -124,6 +116,7 @@ fn reduced_and_recovered(factor: &dyn Interior, columns: usize) -> (Vec<f64>, Ve
 }
 
 #[test]
+#[ignore = "needs the MUMPS engine: `cargo xtask engine mumps`, then `cargo test --tests -- --ignored`"]
 fn the_schur_complement_and_vectors_are_those_of_the_built_in_engine() {
     let cases = [
         PLAIN,
@@ -140,9 +133,7 @@ fn the_schur_complement_and_vectors_are_those_of_the_built_in_engine() {
     let some: Vec<bool> = (0..a.points()).map(|p| p % 9 == 8).collect();
     let (none, all) = (vec![false; a.points()], vec![true; a.points()]);
     for options in cases {
-        let Some(engine) = start(options) else {
-            return;
-        };
+        let engine = start(options);
         for kept in [&some, &none, &all] {
             let builtin = factor(Arc::new(Multifrontal), &a, (&fixed, kept)).unwrap();
             let mumps = factor(Arc::clone(&engine) as _, &a, (&fixed, kept)).unwrap();
@@ -159,6 +150,7 @@ fn the_schur_complement_and_vectors_are_those_of_the_built_in_engine() {
 }
 
 #[test]
+#[ignore = "needs the MUMPS engine: `cargo xtask engine mumps`, then `cargo test --tests -- --ignored`"]
 fn a_matrix_that_nobody_keeps_and_a_compliance_that_is_spread_are_the_same() {
     let a = grid([7, 6, 7], 3);
     // Half of the points are kept: more rows than a block of the grid of ranks has.
@@ -186,9 +178,7 @@ fn a_matrix_that_nobody_keeps_and_a_compliance_that_is_spread_are_the_same() {
             spread: Some(true),
             ..PLAIN
         };
-        let Some(engine) = start(spread) else {
-            return;
-        };
+        let engine = start(spread);
         let (factor, schur) = factor(engine, &Unkept(a.clone()), marks).unwrap();
         assert!(!factor.ordered().compliance_is_here());
         assert!((schur.trace(n) / trace - 1.0).abs() < 1e-12);
@@ -216,15 +206,14 @@ fn a_matrix_that_nobody_keeps_and_a_compliance_that_is_spread_are_the_same() {
 }
 
 #[test]
+#[ignore = "needs the MUMPS engine: `cargo xtask engine mumps`, then `cargo test --tests -- --ignored`"]
 fn an_inverse_that_does_not_exist_is_refused_where_it_is_spread() {
     let spread = MumpsOptions {
         ranks: 2,
         spread: Some(true),
         ..PLAIN
     };
-    let Some(engine) = start(spread) else {
-        return;
-    };
+    let engine = start(spread);
     let a = grid([7, 6, 6], 3);
     let kept: Vec<bool> = (0..a.points()).map(|p| p % 9 == 8).collect();
     let fixed = vec![false; a.rows()];
@@ -236,10 +225,9 @@ fn an_inverse_that_does_not_exist_is_refused_where_it_is_spread() {
 }
 
 #[test]
+#[ignore = "needs the MUMPS engine: `cargo xtask engine mumps`, then `cargo test --tests -- --ignored`"]
 fn bodies_that_nothing_holds_and_those_without_memory_are_refused() {
-    let Some(engine) = start(PLAIN) else {
-        return;
-    };
+    let engine = start(PLAIN);
     let a = grid([7, 6, 6], 3);
     let (fixed, kept) = (vec![false; a.rows()], vec![false; a.points()]);
     let free = factor(Arc::clone(&engine) as _, &a, (&fixed, &kept));
@@ -249,9 +237,7 @@ fn bodies_that_nothing_holds_and_those_without_memory_are_refused() {
         memory: Some(1),
         ..PLAIN
     };
-    let Some(engine) = start(tight) else {
-        return;
-    };
+    let engine = start(tight);
     let a = grid([14, 14, 14], 3);
     let fixed: Vec<bool> = (0..a.rows()).map(|dof| dof < 600).collect();
     let refused = factor(engine, &a, (&fixed, &vec![false; a.points()]));

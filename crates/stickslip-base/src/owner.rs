@@ -1,11 +1,13 @@
-//! Who does what, of processes on several machines: a file that is there as long as a process is at it, so that others wait, or do something else.
+//! Who owns a file, a folder or a piece of work, of processes on several machines: a file that is there as long as its owner lives.
 //!
-//! What it relies on holds on network file systems as well: a file is created by one of those who try at once, and a rename is seen as a whole. Locks of the
-//! system are not used. Whoever holds a lease writes another number into it every `BEAT`; whoever waits and has seen none for `PATIENCE`, by a
-//! clock of its own, takes the holder for dead. On the same machine it asks the system instead. Leases spare work, and keep messages apart; what is written
-//! is whole without them: where two do the same after all, both are right, and the file is that of the one who was last.
+//! There are two ways to own. A *lock* of the system ends with the process that has it, at once and on whatever machine it was; folders of results are owned
+//! so, and where a file system knows no locks, what the file says of the owner counts. A *lease* needs only what holds on network file systems of all kinds:
+//! a file is created by one of those who try at once, and a rename is seen as a whole. Who holds a lease writes another number into it every `BEAT`;
+//! who waits and has seen none for `PATIENCE`, by a clock of its own, takes the holder for dead. On the same machine it asks the system instead.
+//! Leases spare work, and keep messages apart; what is written is whole without them: where two do the same after all, both are right, and the file
+//! is that of the one who was last.
 
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, ErrorKind, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -22,77 +24,181 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// What a name ends with under which something is written, or put out of the way.
 const ASIDE: &str = "tmp";
 
-/// The right to do something. It is given back when this is dropped.
+/// The owner of what a file stands for. It is given back when this is dropped.
 #[derive(Debug)]
-pub struct Lease {
+pub struct Owner {
     path: PathBuf,
-    /// Of this lease and no other.
-    token: String,
-    /// Ends the beat when it is dropped.
-    over: Option<Sender<()>>,
-    beat: Option<JoinHandle<()>>,
+    /// What the file says of this owner and no other.
+    text: String,
+    /// What the file said of who had it before and did not give it back.
+    before: Vec<u8>,
+    way: Way,
 }
 
-/// What came of asking for a lease.
+/// How something is owned.
 #[derive(Debug)]
-pub enum Asked {
-    /// It was free.
-    Ours(Lease),
-    /// Another has it.
-    Theirs,
-    /// There can be none, as nothing can be written there.
-    Nobodys,
+enum Way {
+    /// By a lock on this file.
+    Lock(File),
+    /// By a beat, which ends when the sender is dropped; without it others take over after a while.
+    Lease(Option<(Sender<()>, JoinHandle<()>)>),
+    /// No longer: the file stays.
+    Left,
 }
 
-impl Lease {
-    /// Who has it, for people: `process 4711 on host`; `None` if nobody has.
-    pub fn holder(path: &Path) -> Option<String> {
-        let text = fs::read(path).ok()?;
-        Some(match Holder::parse(&text) {
-            Some(holder) => format!("process {} on {}", holder.process, holder.host),
-            None => "another process".into(),
-        })
+/// Why something cannot be had.
+#[derive(Debug)]
+pub enum Refused {
+    /// Somebody has it.
+    Taken(Holder),
+    /// What the system says.
+    Io(io::Error),
+}
+
+impl From<io::Error> for Refused {
+    fn from(e: io::Error) -> Self {
+        Refused::Io(e)
+    }
+}
+
+impl Owner {
+    /// Takes what a file stands for that `open` opens, or makes, to be read and written; from who is `dead` in any case.
+    ///
+    /// # Errors
+    /// [`Refused`]: somebody has it; what the system says.
+    pub fn lock(
+        path: PathBuf,
+        open: impl Fn(&Path) -> io::Result<File>,
+        dead: Option<&str>,
+    ) -> Result<Owner, Refused> {
+        let text = text_of_this();
+        loop {
+            let mut file = open(&path)?;
+            let mut before = Vec::new();
+            // What cannot be read says nothing.
+            let _ = file.read_to_end(&mut before);
+            match (file.try_lock(), Holder::parse(&before)) {
+                (Ok(()), _) => {}
+                (Err(TryLockError::WouldBlock), holder) => {
+                    return Err(Refused::Taken(holder.unwrap_or_default()));
+                }
+                // Some file systems know no locks.
+                (Err(TryLockError::Error(_)), Some(holder))
+                    if !holder.has_ended() && dead != Some(&holder.to_string()) =>
+                {
+                    return Err(Refused::Taken(holder));
+                }
+                (Err(TryLockError::Error(_)), _) => {}
+            }
+            if !is_at(&file, &path) {
+                // Whoever had it has just gone, and the file with him.
+                continue;
+            }
+            write_anew(&mut file, format!("{text}\n").as_bytes())?;
+            let way = Way::Lock(file);
+            return Ok(Owner {
+                path,
+                text,
+                before,
+                way,
+            });
+        }
     }
 
-    /// Asks for it.
-    pub fn ask(path: &Path) -> Asked {
-        let token = token();
-        let me = format!("{} {token}", Holder::this());
-        let mut file = match create(path, &me) {
-            Ok(file) => file,
-            Err(e) if e.kind() == ErrorKind::AlreadyExists => return Asked::Theirs,
-            Err(_) => return Asked::Nobodys,
+    /// Takes a lease.
+    ///
+    /// # Errors
+    /// [`Refused`]: another has it; there can be none, as nothing can be written there.
+    pub fn lease(path: &Path) -> Result<Owner, Refused> {
+        let text = text_of_this();
+        let mut file = match create(path, &text) {
+            Err(e) if e.kind() == ErrorKind::AlreadyExists => {
+                return Err(Refused::Taken(Holder::named_in(path).unwrap_or_default()));
+            }
+            made => made?,
         };
         let (over, end) = channel();
+        let who = text.clone();
         let beat = Builder::new().spawn(move || {
             let mut count = 0;
             while end.recv_timeout(BEAT) == Err(RecvTimeoutError::Timeout) {
                 count += 1;
                 // One that cannot be written is missed by those who wait.
-                let _ = say(&mut file, &me, count);
+                let _ = say(&mut file, &who, count);
             }
         });
-        Asked::Ours(Lease {
+        Ok(Owner {
             path: path.to_path_buf(),
-            token,
-            over: Some(over),
-            // Without a beat others take over after a while.
-            beat: beat.ok(),
+            text,
+            before: Vec::new(),
+            way: Way::Lease(beat.ok().map(|beat| (over, beat))),
         })
+    }
+
+    /// Who had it before and did not give it back.
+    pub fn before(&self) -> Option<Holder> {
+        Holder::parse(&self.before)
+    }
+
+    /// Whether it is still owned: the file is gone where somebody has removed it, and may be another's.
+    pub fn stands(&self) -> bool {
+        match &self.way {
+            Way::Lock(file) => is_at(file, &self.path),
+            Way::Lease(_) => {
+                fs::read_to_string(&self.path).is_ok_and(|text| text.contains(&self.text))
+            }
+            Way::Left => false,
+        }
+    }
+
+    /// Gives it back as it was found: with the name of whoever was killed with it.
+    pub fn leave_as_it_was(mut self) {
+        // Nobody is left to tell if it cannot be written: then the name goes, too.
+        if let (Some(_), Way::Lock(file)) = (self.before(), &mut self.way)
+            && write_anew(file, &self.before).is_ok()
+        {
+            self.way = Way::Left;
+        }
     }
 }
 
-impl Drop for Lease {
+impl Drop for Owner {
     fn drop(&mut self) {
-        drop(self.over.take());
-        if let Some(beat) = self.beat.take() {
+        if let Way::Lease(beat) = &mut self.way
+            && let Some((over, beat)) = beat.take()
+        {
+            drop(over);
             let _ = beat.join();
         }
-        // It may be another's by now, if this process was held up for so long that it was taken for dead.
-        if fs::read_to_string(&self.path).is_ok_and(|text| text.contains(&self.token)) {
+        // It may be another's by now: a lease if this process was held up for so long that it was taken for dead. First the name goes, then the lock: whoever
+        // opens the file in between finds it gone and tries again. Nobody is left to tell if it fails.
+        if self.stands() {
             let _ = fs::remove_file(&self.path);
         }
     }
+}
+
+/// Whether the file is still the one of this name.
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let same = |a: fs::Metadata, b: fs::Metadata| (a.dev(), a.ino()) == (b.dev(), b.ino());
+    let both = file
+        .metadata()
+        .and_then(|a| Ok((a, fs::symlink_metadata(path)?)));
+    both.is_ok_and(|(a, b)| same(a, b))
+}
+
+/// An open file cannot be removed there.
+#[cfg(not(unix))]
+fn is_at(_: &File, path: &Path) -> bool {
+    path.exists()
+}
+
+fn write_anew(file: &mut File, text: &[u8]) -> io::Result<()> {
+    file.set_len(0)?;
+    file.rewind()?;
+    file.write_all(text)
 }
 
 /// Creates a lease with what it says in it. It is written under another name and linked, so that a process that is killed meanwhile leaves no empty lease,
@@ -188,20 +294,22 @@ fn put_away(path: &Path, text: &[u8]) {
     let _ = fs::remove_file(&aside);
 }
 
-/// A process.
-#[derive(Debug, Clone, PartialEq, Eq)]
-struct Holder {
-    process: u32,
+/// A process that owns something.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Holder {
+    /// Its process number; 0 if not known.
+    pub process: u32,
+    /// The name of the machine; empty if not known.
+    pub host: String,
     /// When it began, as the system counts: numbers of processes are used again.
     begun: u64,
-    /// The machine since its start, and the space in which processes have their numbers; `-` where that is not known.
+    /// The machine since its start, and the space in which processes have their numbers; empty where that is not known.
     place: String,
-    /// The name of the machine.
-    host: String,
 }
 
 impl Holder {
-    fn this() -> Self {
+    /// This process.
+    pub fn this() -> Self {
         let process = std::process::id();
         let boot = fs::read_to_string("/proc/sys/kernel/random/boot_id").ok();
         let space = fs::read_link("/proc/self/ns/pid").ok();
@@ -210,28 +318,57 @@ impl Holder {
             let number: String = space.chars().filter(char::is_ascii_digit).collect();
             format!("{}/{number}", boot.trim())
         });
+        let name = fs::read_to_string("/proc/sys/kernel/hostname").ok();
+        let name = name.or_else(|| std::env::var("HOSTNAME").ok());
+        let name = name.or_else(|| std::env::var("COMPUTERNAME").ok());
         Holder {
             process,
+            host: name.unwrap_or_default().split_whitespace().collect(),
             begun: begun(process).unwrap_or_default(),
-            place: place.unwrap_or_else(|| "-".into()),
-            host: host(),
+            place: place.unwrap_or_default(),
         }
     }
 
+    /// What a file says of its owner: at least a process and the name of its machine.
     fn parse(text: &[u8]) -> Option<Self> {
-        let text = std::str::from_utf8(text).ok()?;
-        let mut words = text.split_whitespace();
+        let mut words = std::str::from_utf8(text).ok()?.split_whitespace();
+        let mut word = || Some(words.next()?.replace(UNKNOWN, ""));
         Some(Holder {
-            process: words.next()?.parse().ok()?,
-            begun: words.next()?.parse().ok()?,
-            place: words.next()?.to_string(),
-            host: words.next()?.to_string(),
+            process: word()?.parse().ok()?,
+            host: word()?,
+            begun: word()
+                .and_then(|begun| begun.parse().ok())
+                .unwrap_or_default(),
+            place: word().unwrap_or_default(),
         })
+    }
+
+    /// What a file says of it, which [`Holder::parse`] reads.
+    fn words(&self) -> String {
+        let known = |word: &str| if word.is_empty() { UNKNOWN } else { word }.to_string();
+        let (host, place) = (known(&self.host), known(&self.place));
+        format!("{} {host} {} {place}", self.process, self.begun)
+    }
+
+    /// Who is named in a file; `None` if there is none.
+    pub fn named_in(path: &Path) -> Option<Self> {
+        let text = fs::read(path).ok()?;
+        Some(Holder::parse(&text).unwrap_or_default())
+    }
+
+    /// Who has a lock by this file, if anybody has.
+    pub fn of_lock(path: &Path) -> Option<Self> {
+        let holder = Holder::named_in(path).filter(|holder| holder.process > 0)?;
+        match File::open(path).ok()?.try_lock_shared() {
+            Err(TryLockError::WouldBlock) => Some(holder),
+            Ok(()) => None,
+            Err(TryLockError::Error(_)) => (!holder.has_ended()).then_some(holder),
+        }
     }
 
     /// Whether the system of this machine can tell of it.
     fn is_known(&self) -> bool {
-        self.place != "-" && self.begun > 0 && self.place == Holder::this().place
+        !self.place.is_empty() && self.begun > 0 && self.place == Holder::this().place
     }
 
     /// Whether it has ended, as far as the system can tell.
@@ -247,26 +384,23 @@ impl Holder {
 
 impl std::fmt::Display for Holder {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Holder {
-            process,
-            begun,
-            place,
-            host,
-        } = self;
-        write!(f, "{process} {begun} {place} {host}")
+        match self.process {
+            0 => write!(f, "a process that has not said who it is")?,
+            process => write!(f, "process {process}")?,
+        }
+        match self.host.as_str() {
+            "" => Ok(()),
+            host => write!(f, " on {host}"),
+        }
     }
 }
 
-/// The name of this machine, in one word.
-fn host() -> String {
-    let name = fs::read_to_string("/proc/sys/kernel/hostname").ok();
-    let name = name.or_else(|| std::env::var("HOSTNAME").ok());
-    let name = name.or_else(|| std::env::var("COMPUTERNAME").ok());
-    let word: String = name.unwrap_or_default().split_whitespace().collect();
-    match word.is_empty() {
-        true => "another-machine".into(),
-        false => word,
-    }
+/// Stands for a word that is not known.
+const UNKNOWN: &str = "?";
+
+/// What a file says that this process owns, with a word of this one time.
+fn text_of_this() -> String {
+    format!("{} {}", Holder::this().words(), token())
 }
 
 /// When a process began, in the ticks of Linux; `None` if there is none that has not ended.
@@ -322,7 +456,7 @@ mod tests {
 
     fn folder(name: &str) -> PathBuf {
         let folder =
-            std::env::temp_dir().join(format!("stickslip-lease-{name}-{}", std::process::id()));
+            std::env::temp_dir().join(format!("stickslip-owner-{name}-{}", std::process::id()));
         fs::create_dir_all(&folder).unwrap();
         folder
     }
@@ -344,7 +478,7 @@ mod tests {
                 seen
             });
             for _ in 0..100 {
-                assert!(matches!(Lease::ask(&path), Asked::Ours(_)));
+                assert!(Owner::lease(&path).is_ok());
             }
             over.store(true, Ordering::Relaxed);
             assert!(looks.join().unwrap() > 0);
@@ -357,21 +491,21 @@ mod tests {
     fn a_lease_has_one_holder_and_is_given_back() {
         let folder = folder("one");
         let path = folder.join("a.lease");
-        let Asked::Ours(lease) = Lease::ask(&path) else {
+        let Ok(lease) = Owner::lease(&path) else {
             panic!("it is free");
         };
-        assert!(matches!(Lease::ask(&path), Asked::Theirs));
+        assert!(matches!(Owner::lease(&path), Err(Refused::Taken(_))));
         let mut waiting = Waiting::default();
         assert!(waiting.look(&path), "its holder lives");
         assert!(path.exists());
-        let holder = Lease::holder(&path).unwrap();
+        let holder = Holder::named_in(&path).unwrap().to_string();
         let me = format!("process {} on ", std::process::id());
         assert!(holder.starts_with(&me), "{holder}");
         drop(lease);
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
         assert!(matches!(
-            Lease::ask(&folder.join("none/a.lease")),
-            Asked::Nobodys
+            Owner::lease(&folder.join("none/a.lease")),
+            Err(Refused::Io(_))
         ));
         fs::remove_dir_all(folder).unwrap();
     }
@@ -381,11 +515,13 @@ mod tests {
         let folder = folder("many");
         for round in 0..20 {
             let path = folder.join(format!("{round}.lease"));
-            let got: Vec<Asked> = std::thread::scope(|scope| {
-                let all: Vec<_> = (0..8).map(|_| scope.spawn(|| Lease::ask(&path))).collect();
+            let got: Vec<_> = std::thread::scope(|scope| {
+                let all: Vec<_> = (0..8)
+                    .map(|_| scope.spawn(|| Owner::lease(&path)))
+                    .collect();
                 all.into_iter().map(|one| one.join().unwrap()).collect()
             });
-            let ours = got.iter().filter(|one| matches!(one, Asked::Ours(_)));
+            let ours = got.iter().filter(|one| one.is_ok());
             assert_eq!(ours.count(), 1);
         }
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
@@ -398,13 +534,13 @@ mod tests {
         assert!(!me.has_ended());
         me.begun += 1;
         assert!(me.has_ended(), "another process has this number now");
-        let away = b"1 5 elsewhere/7 far-away token 000000000000\n";
+        let away = b"1 far-away 5 elsewhere/7 token 000000000000\n";
         let mut waiting = Waiting::default();
         let now = Instant::now();
         assert!(!waiting.is_over(away, now));
         assert!(!waiting.is_over(away, now + PATIENCE / 2));
         // It beats.
-        let beat = b"1 5 elsewhere/7 far-away token 000000000001\n";
+        let beat = b"1 far-away 5 elsewhere/7 token 000000000001\n";
         let later = now + PATIENCE + BEAT;
         assert!(!waiting.is_over(beat, later));
         assert!(!waiting.is_over(beat, later + PATIENCE));
@@ -419,7 +555,7 @@ mod tests {
         let path = folder.join("a.lease");
         let mut dead = Holder::this();
         dead.begun += 1;
-        let text = format!("{dead} token 000000000000\n");
+        let text = format!("{} token 000000000000\n", dead.words());
         fs::write(&path, &text).unwrap();
         assert!(!Waiting::default().look(&path));
         assert!(!path.exists());
@@ -429,7 +565,7 @@ mod tests {
         assert_eq!(fs::read_to_string(&path).unwrap(), "new");
         // One that has become another's is not given back.
         fs::remove_file(&path).unwrap();
-        let Asked::Ours(lease) = Lease::ask(&path) else {
+        let Ok(lease) = Owner::lease(&path) else {
             panic!("it is free");
         };
         fs::write(&path, "new").unwrap();
@@ -455,6 +591,50 @@ mod tests {
                 .all(|e| kept.iter().any(|k| e.file_name() == *k))
         );
         assert_eq!(left.len(), kept.len());
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    fn lock(path: &Path) -> Result<Owner, Refused> {
+        let open = |path: &Path| {
+            let mut options = OpenOptions::new();
+            let options = options.read(true).write(true).create(true);
+            options.truncate(false).open(path)
+        };
+        Owner::lock(path.to_path_buf(), open, None)
+    }
+
+    #[test]
+    fn a_folder_has_one_holder_who_gives_it_back() {
+        let folder = folder("lock-one");
+        let path = folder.join("run.lock");
+        let owner = lock(&path).unwrap();
+        assert!(owner.before().is_none());
+        assert_eq!(Holder::of_lock(&path), Some(Holder::this()));
+        match lock(&path) {
+            Err(Refused::Taken(holder)) => assert_eq!(holder, Holder::this()),
+            other => panic!("{other:?}"),
+        }
+        drop(owner);
+        assert_eq!(Holder::of_lock(&path), None);
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
+        fs::remove_dir_all(folder).unwrap();
+    }
+
+    #[test]
+    fn what_a_dead_process_left_is_no_obstacle() {
+        let folder = folder("lock-stale");
+        let path = folder.join("run.lock");
+        fs::write(&path, "4194305 far-away\n").unwrap();
+        assert_eq!(Holder::of_lock(&path), None);
+        let owner = lock(&path).unwrap();
+        let before = owner.before().unwrap();
+        assert_eq!(before.to_string(), "process 4194305 on far-away");
+        owner.leave_as_it_was();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "4194305 far-away\n");
+        assert_eq!(Holder::of_lock(&path), None);
+        drop(lock(&path).unwrap());
+        fs::write(&path, b"\xff\xfe").unwrap();
+        assert!(lock(&path).unwrap().before().is_none());
         fs::remove_dir_all(folder).unwrap();
     }
 }
