@@ -161,7 +161,6 @@ fn interface(
             walls: Default::default(),
             clamped: Vec::new(),
             primary: Primary::Facets(facets),
-            edge_tolerance: 1e-3,
             origin: [0.0; 3],
             relief: Vec::new(),
         }),

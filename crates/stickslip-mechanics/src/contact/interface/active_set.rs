@@ -17,7 +17,7 @@ impl ActiveSet for InterfaceForce<'_> {
     fn put_back(&mut self) -> usize {
         let mut count = 0;
         for (flips, e) in (self.attempt.flips.iter_mut()).zip(&self.cache.last.points) {
-            if e.off_edge && !flips.returned {
+            if e.foot.off_edge && !flips.returned {
                 flips.left = 0;
                 flips.returned = true;
                 count += 1;

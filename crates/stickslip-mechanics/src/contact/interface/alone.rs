@@ -62,7 +62,7 @@ fn point_alone(
         return None;
     }
     let traction = match e.saddle {
-        Some((_, shift)) => [0, 1, 2].map(|q| e.multiplier[q] - shift[q]),
+        Some((_, shift)) => [0, 1, 2].map(|q| e.kept.multiplier[q] - shift[q]),
         None => e.response.traction,
     };
     let (mut dofs, mut rows) = (batch.dofs(e).to_vec(), tangent.rows.to_vec());

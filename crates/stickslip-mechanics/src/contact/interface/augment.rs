@@ -65,13 +65,13 @@ fn centre(interface: &mut InterfaceForce) -> f64 {
         let r = &e.response;
         // A point that carries nothing has no stiffness either: what does not change is no violation.
         let change = (r.traction[0] - m.centre_pressure).abs();
-        if e.normal_stiffness.is_finite() && change != 0.0 {
-            worst = larger(worst, change / e.normal_stiffness);
+        if e.stiffness[0].is_finite() && change != 0.0 {
+            worst = larger(worst, change / e.stiffness[0]);
         }
         let shear = e.along(&e.frames.before);
         let change = distance(shear, m.centre_shear);
-        if r.status == Status::Stick && e.tangential_stiffness.is_finite() && change != 0.0 {
-            worst = larger(worst, change / e.tangential_stiffness);
+        if r.status == Status::Stick && e.stiffness[1].is_finite() && change != 0.0 {
+            worst = larger(worst, change / e.stiffness[1]);
         }
         m.centre_pressure = r.traction[0];
         m.centre_shear = shear;

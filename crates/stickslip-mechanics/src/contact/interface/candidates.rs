@@ -84,7 +84,6 @@ pub(super) fn closest(
         reference: &definition.reference,
         position: definition.points[i].position(places.x),
         outward: turned.unwrap_or(definition.points[i].normal),
-        edge_tolerance: definition.edge_tolerance,
         walls: definition
             .walls
             .of(definition.facets(), &definition.reference),

@@ -136,13 +136,13 @@ pub fn commit(interface: &mut InterfaceForce, stage: &Stage) -> History {
 /// because the forces in play, by which the balance is judged, are larger by far. Multipliers are what acts on the bodies.
 fn trust_multipliers(points: &mut [Evaluation]) {
     let size = |t: &[f64; 3]| t.iter().fold(0.0, |m: f64, t| m.max(t.abs()));
-    let forces = points.iter().map(|e| size(&e.multiplier) * e.area);
+    let forces = points.iter().map(|e| size(&e.kept.multiplier) * e.area);
     let largest = forces.fold(0.0, f64::max);
     for e in points {
         let open = e.response.status == Status::Open;
         let off = e.saddle.map_or(0.0, |(rest, _)| size(&rest) * e.area);
         if !open && off > SAME * largest {
-            e.response.traction = e.multiplier;
+            e.response.traction = e.kept.multiplier;
         }
     }
 }
@@ -167,7 +167,7 @@ fn share_accumulated(definition: &InterfaceDefinition, last: &Evaluations, next:
     let worn = &mut next.worn;
     for (i, earlier) in definition.alike.iter().enumerate() {
         for &j in earlier {
-            let (carries, other) = match [i, j].map(|k| last.points[k].facet.is_some()) {
+            let (carries, other) = match [i, j].map(|k| last.points[k].foot.facet.is_some()) {
                 [true, false] => (i, j),
                 [false, true] => (j, i),
                 _ => continue,
@@ -334,7 +334,7 @@ fn pass(
         _ => e.forward(e.moved, e.frames.normal_before, dim),
     };
     // The shear of both ends in the directions at the start.
-    let [a, b] = e.carried.map(|t| part * t);
+    let [a, b] = e.kept.shear.map(|t| part * t);
     let [e1, e2] = e.frames.before;
     let both = add(add_scaled(scale(a, e1), b, e2), e.along(&e.frames.before));
     // Without damping, which is no part of what is stored.
@@ -358,15 +358,15 @@ fn pass(
             gap: e.gap,
             normal: e.frames.normal,
             status: r.status,
-            facet: e.facet,
+            facet: e.foot.facet,
             area: e.area,
             damping: r.damping,
             dissipated: h.dissipated + dissipated,
             path: h.path + interface.conditions.cycles() * path,
             spent: h.spent + interface.conditions.cycles() * dissipated,
             limit,
-            sheared: sheared(interface.contact, shear, e.tangential_stiffness),
-            stiffness: [e.normal_stiffness, e.tangential_stiffness],
+            sheared: sheared(interface.contact, shear, e.stiffness[1]),
+            stiffness: e.stiffness,
         },
     }
 }
@@ -412,7 +412,7 @@ fn dissipated(
     let now = along([r.traction[1], r.traction[2]]);
     let mean = match interface.conditions.impulses {
         true => now,
-        false => 0.5 * (along(e.carried) + now),
+        false => 0.5 * (along(e.kept.shear) + now),
     };
     if resolved && r.status == Status::Open {
         // It may have slid before the surfaces parted.

@@ -76,7 +76,7 @@ pub(super) fn friction_error(interface: &InterfaceForce, stage: &Stage) -> Frict
             // With edges of a facet as directions friction need not be against slip, which is what the spring of stick has not taken up. What is unsure
             // may turn it by this angle.
             let spring = match interface.laws.slip.as_dyn().sticks() {
-                true => scale(1.0 / e.tangential_stiffness, sub(shear, before.shear)),
+                true => scale(1.0 / e.stiffness[1], sub(shear, before.shear)),
                 false => [0.0; 3],
             };
             let slid = add(moved, spring);
@@ -97,7 +97,7 @@ pub(super) fn friction_error(interface: &InterfaceForce, stage: &Stage) -> Frict
 
 /// How far a point gives way under a unit of shear before it slips, and where slip has no direction to speak of `[m/Pa]`.
 fn compliance(interface: &InterfaceForce, i: usize, e: &Evaluation) -> f64 {
-    1.0 / e.tangential_stiffness + GIVEN / interface.points[i].stiffness
+    1.0 / e.stiffness[1] + GIVEN / interface.points[i].stiffness
 }
 
 /// How far the point has moved over the material of the primary beneath it, along the surface, belt included, and how uncertain that is. In dynamics

@@ -186,7 +186,7 @@ impl Curvature<'_> {
 fn carried(interface: InterfaceInput, evaluations: &Evaluations, point: usize) -> Option<Carried> {
     let e = evaluations.points.get(point)?;
     let t = match interface.unknown() {
-        true => e.multiplier,
+        true => e.kept.multiplier,
         false => e.response.traction,
     };
     (t != [0.0; 3]).then(|| {

@@ -60,8 +60,6 @@ pub struct InterfaceMesh {
     pub clamped: Vec<[bool; 3]>,
     /// How thick the primary is behind its facets.
     pub walls: Walls,
-    /// How far a point may lie beyond the outer edge of the primary and still be carried, relative to the facet.
-    pub edge_tolerance: f64,
     /// Height of the real surface above the mesh at each point, towards the primary `[m]`; empty where they are the same. To first order, as of waves that are
     /// long beside their heights.
     pub relief: Vec<f64>,

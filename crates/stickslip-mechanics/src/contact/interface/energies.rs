@@ -32,7 +32,7 @@ pub(super) fn initial_energy(contact: ContactView, points: &[Evaluation]) -> f64
             pressure: e.response.traction[0],
             damping: e.response.damping,
             gap: e.gap,
-            stiffness: [e.normal_stiffness, e.tangential_stiffness],
+            stiffness: e.stiffness,
             ..PointHistory::default()
         };
         e.area * (own + spring_energy(contact, i, &point))

@@ -103,10 +103,8 @@ pub(in crate::contact) struct Evaluation {
     pub response: Response,
     /// Where multipliers are unknowns: the residual of their rows, and after a tangent evaluation `K_ll⁻¹` times that.
     pub saddle: Option<([f64; 3], [f64; 3])>,
-    /// Multipliers as components in the frame, where they are unknowns.
-    pub multiplier: [f64; 3],
-    /// Shear traction at the last accepted state, in the frame.
-    pub carried: [f64; 2],
+    /// Tractions from before.
+    pub kept: Before,
     /// Force that rounding may leave.
     pub rounding: f64,
     pub gap: f64,
@@ -115,11 +113,8 @@ pub(in crate::contact) struct Evaluation {
     pub frames: Frames,
     /// Relative slip since the last accepted state, belt included, along the frame of that state.
     pub moved: Vec3,
-    /// The facet of the primary that it meets, and the place of its projection there.
-    pub facet: Option<usize>,
-    pub xi: [f64; 2],
-    /// It stays off the outer edge of the primary, but lies beneath its surface.
-    pub off_edge: bool,
+    /// Where it meets facets.
+    pub foot: FacetContact,
     /// Whether something lies opposite.
     pub over: bool,
     /// Whether it slides all the time.
@@ -128,10 +123,29 @@ pub(in crate::contact) struct Evaluation {
     pub off: [f64; 3],
     /// Area that the point stands for.
     pub area: f64,
-    pub normal_stiffness: f64,
-    pub tangential_stiffness: f64,
+    /// Stiffness of the enforcement against penetration and slip `[Pa/m]`.
+    pub stiffness: [f64; 2],
     /// The largest change of a traction with the velocity along it `[Pa s/m]`, where that resists.
     pub viscosity: f64,
+}
+
+/// Tractions of a point from before an evaluation, as components in the frame.
+#[derive(Debug, Clone, Copy, Default)]
+pub(in crate::contact) struct Before {
+    /// Multipliers, where they are unknowns.
+    pub multiplier: [f64; 3],
+    /// Shear traction at the last accepted state.
+    pub shear: [f64; 2],
+}
+
+/// Where a point meets the facets of the primary.
+#[derive(Debug, Clone, Copy, Default)]
+pub(in crate::contact) struct FacetContact {
+    /// The facet, and the place of the projection on it.
+    pub facet: Option<usize>,
+    pub xi: [f64; 2],
+    /// It stays off the outer edge of the primary, but lies beneath its surface.
+    pub off_edge: bool,
 }
 
 /// Where the numbers of a point lie in its [`Batch`].

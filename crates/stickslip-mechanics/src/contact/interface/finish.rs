@@ -23,7 +23,11 @@ pub(super) fn finish(scene: &Scene, e: &mut Evaluation, batch: &mut Batch) -> Op
     }
     let unknown = interface.unknown() && !scene.wants.initial;
     let r = &e.response;
-    let traction = if unknown { e.multiplier } else { r.traction };
+    let traction = if unknown {
+        e.kept.multiplier
+    } else {
+        r.traction
+    };
     if traction == [0.0; 3] && r.traction == [0.0; 3] && r.d_gap == [[0.0; 3]; 3] {
         return None;
     }
@@ -32,7 +36,7 @@ pub(super) fn finish(scene: &Scene, e: &mut Evaluation, batch: &mut Batch) -> Op
         (unknown && scene.wants.tangent).then(|| inverse_of_rows(&e.response.d_multiplier));
     if unknown {
         e.saddle = Some(residual(
-            e.multiplier,
+            e.kept.multiplier,
             e.response.traction,
             inverse.as_ref(),
         ));

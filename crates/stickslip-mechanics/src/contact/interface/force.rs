@@ -48,7 +48,7 @@ impl Force for InterfaceForce<'_> {
             evaluate_all(input, cache, stage, wants);
             let points = &self.cache.trial.points;
             for (flips, e) in self.attempt.flips.iter_mut().zip(points) {
-                flips.meets(e.facet);
+                flips.meets(e.foot.facet);
             }
         }
         let nothing = Evaluations::default();
@@ -264,7 +264,7 @@ fn record(interface: &mut InterfaceForce) {
     }
     if unknown {
         for (m, e) in attempt.multipliers.iter_mut().zip(last) {
-            m.base = e.multiplier;
+            m.base = e.kept.multiplier;
             m.frame = e.frames.before;
             m.frame_normal = e.frames.normal_before;
         }

@@ -29,7 +29,7 @@ pub fn pressed_points(interface: &mut InterfaceForce, stage: &Stage) -> Vec<Pres
     evaluate_all(input, cache, stage, wants);
     let (evaluations, in_space) = (&cache.trial, &cache.geometry.in_space);
     let points = evaluations.points.iter().enumerate();
-    let pressed = points.filter(|(_, e)| e.saddle.is_some() && e.multiplier[0] > 0.0);
+    let pressed = points.filter(|(_, e)| e.saddle.is_some() && e.kept.multiplier[0] > 0.0);
     let found = pressed.filter_map(|(i, e)| {
         let batch = evaluations.batch(i);
         let mut dofs = batch.dofs(e).to_vec();
@@ -38,7 +38,7 @@ pub fn pressed_points(interface: &mut InterfaceForce, stage: &Stage) -> Vec<Pres
         Some(Pressed {
             gap,
             dofs,
-            force: e.area * e.multiplier[0],
+            force: e.area * e.kept.multiplier[0],
         })
     });
     found.collect()

@@ -163,10 +163,7 @@ fn firmness(interface: InterfaceInput, i: usize, e: &Evaluation) -> [f64; 2] {
         false => 1.0,
     };
     [
-        more(interface.laws.needs_normal_stiffness(), e.normal_stiffness),
-        more(
-            interface.laws.needs_tangential_stiffness(),
-            e.tangential_stiffness,
-        ),
+        more(interface.laws.needs_normal_stiffness(), e.stiffness[0]),
+        more(interface.laws.needs_tangential_stiffness(), e.stiffness[1]),
     ]
 }

@@ -217,7 +217,6 @@ fn drum(
             opposite_wear,
             clamped: Vec::new(),
             walls: Default::default(),
-            edge_tolerance: 1e-3,
             origin: [0.0; 3],
             relief: Vec::new(),
         }),

@@ -3,7 +3,7 @@
 use super::cache::Cache;
 use super::candidates::{Places, closest};
 use super::clamped::clamped_pair;
-use super::evaluation::{Batch, Evaluation};
+use super::evaluation::{Batch, Evaluation, FacetContact};
 use super::finish::finish;
 use super::input::InterfaceInput;
 use super::respond::respond;
@@ -47,7 +47,10 @@ pub(super) fn evaluate_facet(
         Ok(found) => found,
         Err(off) => {
             return Evaluation {
-                off_edge: off.off_edge,
+                foot: FacetContact {
+                    off_edge: off.off_edge,
+                    ..FacetContact::default()
+                },
                 ..Evaluation::open(off.distance)
             };
         }
@@ -95,8 +98,8 @@ pub(super) fn evaluate_facet(
         return Evaluation::open(f64::INFINITY);
     }
     let mut e = respond(met, scene, batch);
-    e.facet = Some(f);
-    e.xi = foot.xi;
+    e.foot.facet = Some(f);
+    e.foot.xi = foot.xi;
     finish(scene, &mut e, batch);
     e
 }
@@ -111,14 +114,14 @@ pub(super) fn curvature_of_point(
     let (point, geometry) = (&interface.points[i], &cache.geometry);
     let e = cache.last.points.get(i)?;
     let traction = if interface.unknown() {
-        e.multiplier
+        e.kept.multiplier
     } else {
         e.response.traction
     };
     if e.slots.rows.is_none() || traction == [0.0; 3] {
         return None;
     }
-    let f = e.facet?;
+    let f = e.foot.facet?;
     let facet = &facets[f];
     let point_before = point.position(&geometry.before);
     let mut kept = cache.anchors.get(i).cloned().flatten();
@@ -130,7 +133,7 @@ pub(super) fn curvature_of_point(
         point: point.position(&geometry.x),
         kind: facet.kind,
         facet: now,
-        foot: &evaluate(facet.kind, now, e.xi),
+        foot: &evaluate(facet.kind, now, e.foot.xi),
         anchor: Anchor::at(&mut kept, f, facet, &geometry.before, point_before)?,
         point_before,
         // The way of the belt curves nothing.
@@ -157,7 +160,7 @@ fn facet_of(
     let found = if interface.kinematics.as_dyn().frozen() {
         geometry.frozen[i].ok_or(f64::INFINITY)
     } else {
-        let facet = scene.last.get(i).and_then(|e| e.facet);
+        let facet = scene.last.get(i).and_then(|e| e.foot.facet);
         let facet = facet.or(interface.state.points[i].facet);
         // The projection starts from that at the last accepted state, not from that of the last iteration: what comes out must not
         // depend on the way to it.

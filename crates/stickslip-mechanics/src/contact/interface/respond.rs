@@ -1,7 +1,7 @@
 //! What the laws answer at a point.
 
 use super::belt::steady_velocity;
-use super::evaluation::{Batch, Evaluation, Frames, Question, Slots, components};
+use super::evaluation::{Batch, Before, Evaluation, Frames, Question, Slots, components};
 use super::initial::TOUCHING;
 use super::input::InterfaceInput;
 use super::scene::{LawQuery, Met, Scene};
@@ -103,10 +103,11 @@ pub(super) fn respond(met: Met, scene: &Scene, batch: &mut Batch) -> Evaluation 
             normal_before: stencil.normal_before,
         },
         moved,
-        normal_stiffness: at.stiffness.normal,
-        tangential_stiffness: at.stiffness.tangential,
-        multiplier: at.kept.multiplier,
-        carried: at.kept.shear,
+        stiffness: [at.stiffness.normal, at.stiffness.tangential],
+        kept: Before {
+            multiplier: at.kept.multiplier,
+            shear: at.kept.shear,
+        },
         over: true,
         steady: at.slip.steady,
         off,

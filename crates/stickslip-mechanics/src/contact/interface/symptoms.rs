@@ -113,7 +113,7 @@ fn evidence_of(attempted: LastAttempt, i: usize) -> Evidence {
     evidence.shear = e.response.traction[1].hypot(e.response.traction[2]);
     evidence.limit = e.response.limit;
     evidence.slip = norm(e.moved);
-    if let (Primary::Facets(facets), Some(f)) = (&interface.primary, e.facet) {
+    if let (Primary::Facets(facets), Some(f)) = (&interface.primary, e.foot.facet) {
         let x = |k: usize| interface.reference[facets[f].nodes[k]];
         evidence.facet = distance(x(0), x(1));
         evidence.cell = Some(facets[f].cell);

@@ -100,7 +100,6 @@ pub(in crate::contact) fn sample(kind: ElementKind, kinematics: KinematicsModel)
             opposite_wear: Default::default(),
             walls: Default::default(),
             clamped: Vec::new(),
-            edge_tolerance: 1e-3,
             origin: [0.0; 3],
             relief: Vec::new(),
         }),

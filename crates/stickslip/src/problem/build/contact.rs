@@ -26,11 +26,6 @@ use crate::math::{Vec3, norm, scale, sub};
 use crate::mesh::FacetRef;
 use crate::system::{Dofs, Schedule};
 
-/// How far a point may hang over an outer edge of the primary, relative to the facet. Where edges of both bodies coincide, strains move points over the edge: a tolerance below the strain
-/// lets these points come and go with the pressure that they carry, and then some problems have no solution. Tuned: of the random problems that failed with 1e-3 all are solved with any
-/// value from 3e-3 to 0.1. Abaqus extends its surfaces by 0.1; CalculiX lets points go at about 1.5e-3, and with 5e-3 they still leave in the same increment of the example press-and-slide.
-const EDGE_TOLERANCE: f64 = 5e-3;
-
 pub(super) fn build(
     problem: &Problem,
     sets: &Sets,
@@ -365,7 +360,6 @@ impl Make<'_> {
                 primary: opposite,
                 reference,
                 clamped: Vec::new(),
-                edge_tolerance: EDGE_TOLERANCE,
                 relief: Vec::new(),
             }),
             share,
