@@ -1,11 +1,14 @@
 //! Motions of bodies as a whole that nothing holds, whatever is meant to hold them.
 
+use super::places;
 use super::surfaces::Opposite;
+use super::suspect::Suspect;
 use crate::assess::view::View;
 use crate::contact::facet_point::evaluate;
 use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::contact::response::Status;
 use crate::math::{Vec3, symmetric_eigen};
+use crate::model::definition::Model;
 use crate::model::unheld::{self, Mode};
 
 /// Something that resists a motion: a linear function of the displacements by dof.
@@ -24,6 +27,13 @@ pub(super) struct FloatingBody {
     pub body: String,
     /// What it is: `translation x with rotation about z`.
     pub motion: String,
+}
+
+impl FloatingBody {
+    /// The body as a place, with what is said of the motion.
+    pub fn place(&self, model: &Model, how: &str) -> Suspect {
+        places::body(model, &self.body, format!("{} {how}", self.motion))
+    }
 }
 
 /// Motions that neither the supports, springs and couplings at `t` nor `rows` hold.
