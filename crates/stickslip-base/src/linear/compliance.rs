@@ -10,9 +10,9 @@ use faer::linalg::cholesky::llt::inverse::{inverse, inverse_scratch};
 use faer::{MatMut, MatRef, Par, Spec};
 use rayon::prelude::*;
 
+use super::DistributedOperator;
 use super::elsewhere::Elsewhere;
-use super::factor::zeros;
-use super::{DistributedOperator, LinearError};
+use super::error::{LinearError, zeros};
 
 /// The inverse of a dense symmetric positive definite matrix, for products with vectors.
 ///

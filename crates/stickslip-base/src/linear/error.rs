@@ -71,6 +71,13 @@ impl LinearError {
     }
 }
 
+/// Zeros, or the news that they do not fit.
+pub(super) fn zeros(length: usize) -> Result<Vec<f64>, LinearError> {
+    bytemuck::try_zeroed_vec(length).map_err(|()| LinearError::OutOfMemory {
+        bytes: 8 * length as u64,
+    })
+}
+
 impl fmt::Display for LinearError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

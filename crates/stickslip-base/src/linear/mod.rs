@@ -11,7 +11,6 @@ mod eigen;
 mod elsewhere;
 mod engine;
 mod error;
-mod factor;
 mod gmres;
 mod isotropic;
 mod matrix;
@@ -23,7 +22,6 @@ mod pattern;
 mod residual;
 mod schur;
 mod spread;
-mod symbolic;
 #[cfg(test)]
 mod testing;
 mod union;
@@ -40,14 +38,14 @@ pub use engine::{
     Split,
 };
 pub use error::LinearError;
-pub use factor::{Factor, SINGULAR_ROUNDINGS};
 pub use gmres::{GmresReport, GmresSettings, Product, gmres, gmres_inexact};
 pub use isotropic::Isotropic;
 pub use matrix::{Cells, Matrix, Summands};
-pub use multifrontal::{Fronts, Numbers, PartialFactor, Workspace};
+pub use multifrontal::{
+    Factor, Fronts, Numbers, PartialFactor, SINGULAR_ROUNDINGS, Symbolic, Workspace,
+};
 pub use multigrid::{GapVariables, MeshHints, Multigrid, MultigridSettings};
 pub use pattern::Couplings;
 pub use residual::{backward_error, relative_residual};
 pub use schur::Schur;
 pub use spread::DistributedOperator;
-pub use symbolic::Symbolic;

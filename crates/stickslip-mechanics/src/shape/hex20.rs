@@ -1,58 +1,21 @@
 use super::gauss::HEX_3X3X3;
-use super::reference::{ElementKind, Face, QuadraturePoint, ReferenceElement};
+use super::reference::{
+    ElementKind, Face, QuadraturePoint, ReferenceElement, edges_of_prism, with_middles,
+};
 use crate::math::{Slope, dot};
 
 /// The 20-node serendipity hexahedron, nodes as in VTK.
 pub(super) struct Hex20;
 
-static NODES: [[f64; 3]; 20] = [
-    [-1.0, -1.0, -1.0],
-    [1.0, -1.0, -1.0],
-    [1.0, 1.0, -1.0],
-    [-1.0, 1.0, -1.0],
-    [-1.0, -1.0, 1.0],
-    [1.0, -1.0, 1.0],
-    [1.0, 1.0, 1.0],
-    [-1.0, 1.0, 1.0],
-    [0.0, -1.0, -1.0],
-    [1.0, 0.0, -1.0],
-    [0.0, 1.0, -1.0],
-    [-1.0, 0.0, -1.0],
-    [0.0, -1.0, 1.0],
-    [1.0, 0.0, 1.0],
-    [0.0, 1.0, 1.0],
-    [-1.0, 0.0, 1.0],
-    [-1.0, -1.0, 0.0],
-    [1.0, -1.0, 0.0],
-    [1.0, 1.0, 0.0],
-    [-1.0, 1.0, 0.0],
-];
+static NODES: [[f64; 3]; 20] = with_middles(&super::hex8::NODES, &edges_of_prism::<12>());
 
 static FACES: [Face; 6] = [
-    Face {
-        kind: ElementKind::Quad8,
-        nodes: &[0, 3, 2, 1, 11, 10, 9, 8],
-    },
-    Face {
-        kind: ElementKind::Quad8,
-        nodes: &[4, 5, 6, 7, 12, 13, 14, 15],
-    },
-    Face {
-        kind: ElementKind::Quad8,
-        nodes: &[0, 1, 5, 4, 8, 17, 12, 16],
-    },
-    Face {
-        kind: ElementKind::Quad8,
-        nodes: &[1, 2, 6, 5, 9, 18, 13, 17],
-    },
-    Face {
-        kind: ElementKind::Quad8,
-        nodes: &[2, 3, 7, 6, 10, 19, 14, 18],
-    },
-    Face {
-        kind: ElementKind::Quad8,
-        nodes: &[3, 0, 4, 7, 11, 16, 15, 19],
-    },
+    Face::of(ElementKind::Quad8, &[0, 3, 2, 1, 11, 10, 9, 8]),
+    Face::of(ElementKind::Quad8, &[4, 5, 6, 7, 12, 13, 14, 15]),
+    Face::of(ElementKind::Quad8, &[0, 1, 5, 4, 8, 17, 12, 16]),
+    Face::of(ElementKind::Quad8, &[1, 2, 6, 5, 9, 18, 13, 17]),
+    Face::of(ElementKind::Quad8, &[2, 3, 7, 6, 10, 19, 14, 18]),
+    Face::of(ElementKind::Quad8, &[3, 0, 4, 7, 11, 16, 15, 19]),
 ];
 
 /// The direction of the edge whose middle this node is; `None` for a corner.
@@ -108,10 +71,6 @@ impl ReferenceElement for Hex20 {
                 }
             };
         }
-    }
-
-    fn second_derivatives(&self, _xi: [f64; 3], d: &mut [[f64; 3]]) {
-        d.fill([0.0; 3]);
     }
 
     fn faces(&self) -> &'static [Face] {

@@ -4,7 +4,7 @@ use super::reference::{ElementKind, Face, QuadraturePoint, ReferenceElement};
 /// The 8-node hexahedron, trilinear.
 pub(super) struct Hex8;
 
-static NODES: [[f64; 3]; 8] = [
+pub(super) static NODES: [[f64; 3]; 8] = [
     [-1.0, -1.0, -1.0],
     [1.0, -1.0, -1.0],
     [1.0, 1.0, -1.0],
@@ -16,30 +16,12 @@ static NODES: [[f64; 3]; 8] = [
 ];
 
 static FACES: [Face; 6] = [
-    Face {
-        kind: ElementKind::Quad4,
-        nodes: &[0, 3, 2, 1],
-    },
-    Face {
-        kind: ElementKind::Quad4,
-        nodes: &[4, 5, 6, 7],
-    },
-    Face {
-        kind: ElementKind::Quad4,
-        nodes: &[0, 1, 5, 4],
-    },
-    Face {
-        kind: ElementKind::Quad4,
-        nodes: &[1, 2, 6, 5],
-    },
-    Face {
-        kind: ElementKind::Quad4,
-        nodes: &[2, 3, 7, 6],
-    },
-    Face {
-        kind: ElementKind::Quad4,
-        nodes: &[3, 0, 4, 7],
-    },
+    Face::of(ElementKind::Quad4, &[0, 3, 2, 1]),
+    Face::of(ElementKind::Quad4, &[4, 5, 6, 7]),
+    Face::of(ElementKind::Quad4, &[0, 1, 5, 4]),
+    Face::of(ElementKind::Quad4, &[1, 2, 6, 5]),
+    Face::of(ElementKind::Quad4, &[2, 3, 7, 6]),
+    Face::of(ElementKind::Quad4, &[3, 0, 4, 7]),
 ];
 
 fn factors(xi: [f64; 3], node: &[f64; 3]) -> [f64; 3] {
@@ -67,10 +49,6 @@ impl ReferenceElement for Hex8 {
                 0.125 * node[2] * f[0] * f[1],
             ];
         }
-    }
-
-    fn second_derivatives(&self, _xi: [f64; 3], d: &mut [[f64; 3]]) {
-        d.fill([0.0; 3]);
     }
 
     fn faces(&self) -> &'static [Face] {

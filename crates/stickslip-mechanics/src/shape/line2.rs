@@ -21,10 +21,6 @@ impl ReferenceElement for Line2 {
         d[1] = [0.5, 0.0, 0.0];
     }
 
-    fn second_derivatives(&self, _xi: [f64; 3], d: &mut [[f64; 3]]) {
-        d.fill([0.0; 3]);
-    }
-
     fn faces(&self) -> &'static [Face] {
         &[]
     }

@@ -4,7 +4,7 @@ use super::reference::{ElementKind, Face, QuadraturePoint, ReferenceElement};
 /// The 4-node quadrilateral, bilinear.
 pub(super) struct Quad4;
 
-static NODES: [[f64; 3]; 4] = [
+pub(super) static NODES: [[f64; 3]; 4] = [
     [-1.0, -1.0, 0.0],
     [1.0, -1.0, 0.0],
     [1.0, 1.0, 0.0],
@@ -12,22 +12,10 @@ static NODES: [[f64; 3]; 4] = [
 ];
 
 static FACES: [Face; 4] = [
-    Face {
-        kind: ElementKind::Line2,
-        nodes: &[0, 1],
-    },
-    Face {
-        kind: ElementKind::Line2,
-        nodes: &[1, 2],
-    },
-    Face {
-        kind: ElementKind::Line2,
-        nodes: &[2, 3],
-    },
-    Face {
-        kind: ElementKind::Line2,
-        nodes: &[3, 0],
-    },
+    Face::of(ElementKind::Line2, &[0, 1]),
+    Face::of(ElementKind::Line2, &[1, 2]),
+    Face::of(ElementKind::Line2, &[2, 3]),
+    Face::of(ElementKind::Line2, &[3, 0]),
 ];
 
 impl ReferenceElement for Quad4 {

@@ -1,37 +1,16 @@
 use super::gauss::QUAD_3X3;
-use super::reference::{ElementKind, Face, QuadraturePoint, ReferenceElement};
+use super::reference::{ElementKind, Face, QuadraturePoint, ReferenceElement, with_middles};
 
 /// The 8-node serendipity quadrilateral.
 pub(super) struct Quad8;
 
-static NODES: [[f64; 3]; 8] = [
-    [-1.0, -1.0, 0.0],
-    [1.0, -1.0, 0.0],
-    [1.0, 1.0, 0.0],
-    [-1.0, 1.0, 0.0],
-    [0.0, -1.0, 0.0],
-    [1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [-1.0, 0.0, 0.0],
-];
+static NODES: [[f64; 3]; 8] = with_middles(&super::quad4::NODES, &[[0, 1], [1, 2], [2, 3], [3, 0]]);
 
 static FACES: [Face; 4] = [
-    Face {
-        kind: ElementKind::Line3,
-        nodes: &[0, 1, 4],
-    },
-    Face {
-        kind: ElementKind::Line3,
-        nodes: &[1, 2, 5],
-    },
-    Face {
-        kind: ElementKind::Line3,
-        nodes: &[2, 3, 6],
-    },
-    Face {
-        kind: ElementKind::Line3,
-        nodes: &[3, 0, 7],
-    },
+    Face::of(ElementKind::Line3, &[0, 1, 4]),
+    Face::of(ElementKind::Line3, &[1, 2, 5]),
+    Face::of(ElementKind::Line3, &[2, 3, 6]),
+    Face::of(ElementKind::Line3, &[3, 0, 7]),
 ];
 
 impl ReferenceElement for Quad8 {

@@ -67,6 +67,48 @@ pub struct Face {
     pub nodes: &'static [usize],
 }
 
+impl Face {
+    /// From its kind and nodes.
+    pub(super) const fn of(kind: ElementKind, nodes: &'static [usize]) -> Face {
+        Face { kind, nodes }
+    }
+}
+
+/// Corners, and behind them the middles of edges between two of them.
+pub(super) const fn with_middles<const N: usize>(
+    corners: &[[f64; 3]],
+    edges: &[[usize; 2]],
+) -> [[f64; 3]; N] {
+    let mut nodes = [[0.0; 3]; N];
+    let mut k = 0;
+    while k < 3 * N {
+        let (node, c) = (k / 3, k % 3);
+        let ends = if node < corners.len() {
+            [node; 2]
+        } else {
+            edges[node - corners.len()]
+        };
+        nodes[node][c] = 0.5 * (corners[ends[0]][c] + corners[ends[1]][c]);
+        k += 1;
+    }
+    nodes
+}
+
+/// The edges of a prism: those of both ends, and those between them.
+pub(super) const fn edges_of_prism<const N: usize>() -> [[usize; 2]; N] {
+    let corners = N / 3;
+    let mut edges = [[0; 2]; N];
+    let mut k = 0;
+    while k < corners {
+        let next = (k + 1) % corners;
+        edges[k] = [k, next];
+        edges[k + corners] = [k + corners, next + corners];
+        edges[k + 2 * corners] = [k, k + corners];
+        k += 1;
+    }
+    edges
+}
+
 /// A reference element.
 pub trait ReferenceElement: Sync {
     /// Reference coordinates of the nodes.
@@ -77,7 +119,9 @@ pub trait ReferenceElement: Sync {
     fn gradients(&self, xi: [f64; 3], d: &mut [[f64; 3]]);
     /// Second derivatives `d[node] = [∂ξξ, ∂ηη, ∂ξη]`. Lines, triangles and quadrilaterals only (contact facets);
     /// solids leave `d` zero.
-    fn second_derivatives(&self, xi: [f64; 3], d: &mut [[f64; 3]]);
+    fn second_derivatives(&self, _xi: [f64; 3], d: &mut [[f64; 3]]) {
+        d.fill([0.0; 3]);
+    }
     /// Third derivatives `d[node] = [∂ξξξ, ∂ξξη, ∂ξηη, ∂ηηη]`. Zero but for quad8.
     fn third_derivatives(&self, _xi: [f64; 3], d: &mut [[f64; 4]]) {
         d.fill([0.0; 4]);

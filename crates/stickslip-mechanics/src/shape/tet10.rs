@@ -1,40 +1,17 @@
-use super::reference::{ElementKind, Face, QuadraturePoint, ReferenceElement};
+use super::reference::{ElementKind, Face, QuadraturePoint, ReferenceElement, with_middles};
 use super::simplex::{self, barycentric};
 use super::tet4::BARYCENTRIC;
 
 /// The 10-node tetrahedron, edges in the order 01 12 20 03 13 23.
 pub(super) struct Tet10;
 
-static NODES: [[f64; 3]; 10] = [
-    [0.0, 0.0, 0.0],
-    [1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.0, 0.0, 1.0],
-    [0.5, 0.0, 0.0],
-    [0.5, 0.5, 0.0],
-    [0.0, 0.5, 0.0],
-    [0.0, 0.0, 0.5],
-    [0.5, 0.0, 0.5],
-    [0.0, 0.5, 0.5],
-];
+static NODES: [[f64; 3]; 10] = with_middles(&super::tet4::NODES, &EDGES);
 
 static FACES: [Face; 4] = [
-    Face {
-        kind: ElementKind::Tri6,
-        nodes: &[0, 2, 1, 6, 5, 4],
-    },
-    Face {
-        kind: ElementKind::Tri6,
-        nodes: &[0, 1, 3, 4, 8, 7],
-    },
-    Face {
-        kind: ElementKind::Tri6,
-        nodes: &[1, 2, 3, 5, 9, 8],
-    },
-    Face {
-        kind: ElementKind::Tri6,
-        nodes: &[2, 0, 3, 6, 7, 9],
-    },
+    Face::of(ElementKind::Tri6, &[0, 2, 1, 6, 5, 4]),
+    Face::of(ElementKind::Tri6, &[0, 1, 3, 4, 8, 7]),
+    Face::of(ElementKind::Tri6, &[1, 2, 3, 5, 9, 8]),
+    Face::of(ElementKind::Tri6, &[2, 0, 3, 6, 7, 9]),
 ];
 
 static EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
@@ -70,10 +47,6 @@ impl ReferenceElement for Tet10 {
 
     fn gradients(&self, xi: [f64; 3], d: &mut [[f64; 3]]) {
         simplex::gradients(&barycentric(xi), &BARYCENTRIC, &EDGES, d);
-    }
-
-    fn second_derivatives(&self, _xi: [f64; 3], d: &mut [[f64; 3]]) {
-        d.fill([0.0; 3]);
     }
 
     fn faces(&self) -> &'static [Face] {

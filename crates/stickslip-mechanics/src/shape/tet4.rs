@@ -4,7 +4,7 @@ use super::simplex::barycentric;
 /// The 4-node tetrahedron.
 pub(super) struct Tet4;
 
-static NODES: [[f64; 3]; 4] = [
+pub(super) static NODES: [[f64; 3]; 4] = [
     [0.0, 0.0, 0.0],
     [1.0, 0.0, 0.0],
     [0.0, 1.0, 0.0],
@@ -12,22 +12,10 @@ static NODES: [[f64; 3]; 4] = [
 ];
 
 static FACES: [Face; 4] = [
-    Face {
-        kind: ElementKind::Tri3,
-        nodes: &[0, 2, 1],
-    },
-    Face {
-        kind: ElementKind::Tri3,
-        nodes: &[0, 1, 3],
-    },
-    Face {
-        kind: ElementKind::Tri3,
-        nodes: &[1, 2, 3],
-    },
-    Face {
-        kind: ElementKind::Tri3,
-        nodes: &[2, 0, 3],
-    },
+    Face::of(ElementKind::Tri3, &[0, 2, 1]),
+    Face::of(ElementKind::Tri3, &[0, 1, 3]),
+    Face::of(ElementKind::Tri3, &[1, 2, 3]),
+    Face::of(ElementKind::Tri3, &[2, 0, 3]),
 ];
 
 /// Gradients of the barycentric coordinates.
@@ -54,10 +42,6 @@ impl ReferenceElement for Tet4 {
 
     fn gradients(&self, _xi: [f64; 3], d: &mut [[f64; 3]]) {
         d.copy_from_slice(&BARYCENTRIC);
-    }
-
-    fn second_derivatives(&self, _xi: [f64; 3], d: &mut [[f64; 3]]) {
-        d.fill([0.0; 3]);
     }
 
     fn faces(&self) -> &'static [Face] {

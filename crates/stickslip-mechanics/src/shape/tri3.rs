@@ -4,21 +4,12 @@ use super::simplex::barycentric;
 /// The 3-node triangle.
 pub(super) struct Tri3;
 
-static NODES: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+pub(super) static NODES: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
 
 static FACES: [Face; 3] = [
-    Face {
-        kind: ElementKind::Line2,
-        nodes: &[0, 1],
-    },
-    Face {
-        kind: ElementKind::Line2,
-        nodes: &[1, 2],
-    },
-    Face {
-        kind: ElementKind::Line2,
-        nodes: &[2, 0],
-    },
+    Face::of(ElementKind::Line2, &[0, 1]),
+    Face::of(ElementKind::Line2, &[1, 2]),
+    Face::of(ElementKind::Line2, &[2, 0]),
 ];
 
 /// Gradients of the barycentric coordinates.
@@ -41,10 +32,6 @@ impl ReferenceElement for Tri3 {
 
     fn gradients(&self, _xi: [f64; 3], d: &mut [[f64; 3]]) {
         d.copy_from_slice(&BARYCENTRIC);
-    }
-
-    fn second_derivatives(&self, _xi: [f64; 3], d: &mut [[f64; 3]]) {
-        d.fill([0.0; 3]);
     }
 
     fn faces(&self) -> &'static [Face] {

@@ -1,32 +1,16 @@
-use super::reference::{ElementKind, Face, QuadraturePoint, ReferenceElement};
+use super::reference::{ElementKind, Face, QuadraturePoint, ReferenceElement, with_middles};
 use super::simplex::{self, barycentric};
 use super::tri3::BARYCENTRIC;
 
 /// The 6-node triangle.
 pub(super) struct Tri6;
 
-static NODES: [[f64; 3]; 6] = [
-    [0.0, 0.0, 0.0],
-    [1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-    [0.5, 0.0, 0.0],
-    [0.5, 0.5, 0.0],
-    [0.0, 0.5, 0.0],
-];
+static NODES: [[f64; 3]; 6] = with_middles(&super::tri3::NODES, &EDGES);
 
 static FACES: [Face; 3] = [
-    Face {
-        kind: ElementKind::Line3,
-        nodes: &[0, 1, 3],
-    },
-    Face {
-        kind: ElementKind::Line3,
-        nodes: &[1, 2, 4],
-    },
-    Face {
-        kind: ElementKind::Line3,
-        nodes: &[2, 0, 5],
-    },
+    Face::of(ElementKind::Line3, &[0, 1, 3]),
+    Face::of(ElementKind::Line3, &[1, 2, 4]),
+    Face::of(ElementKind::Line3, &[2, 0, 5]),
 ];
 
 static EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];

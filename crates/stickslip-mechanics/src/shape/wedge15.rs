@@ -1,52 +1,23 @@
-use super::reference::{ElementKind, Face, QuadraturePoint, ReferenceElement};
+use super::reference::{
+    ElementKind, Face, QuadraturePoint, ReferenceElement, edges_of_prism, with_middles,
+};
 use super::wedge6::{SLOPES, barycentric};
 
 /// The 15-node serendipity wedge, nodes as in VTK: corners, edges 01 12 20, 34 45 53, 03 14 25.
 pub(super) struct Wedge15;
 
-static NODES: [[f64; 3]; 15] = [
-    [0.0, 0.0, -1.0],
-    [1.0, 0.0, -1.0],
-    [0.0, 1.0, -1.0],
-    [0.0, 0.0, 1.0],
-    [1.0, 0.0, 1.0],
-    [0.0, 1.0, 1.0],
-    [0.5, 0.0, -1.0],
-    [0.5, 0.5, -1.0],
-    [0.0, 0.5, -1.0],
-    [0.5, 0.0, 1.0],
-    [0.5, 0.5, 1.0],
-    [0.0, 0.5, 1.0],
-    [0.0, 0.0, 0.0],
-    [1.0, 0.0, 0.0],
-    [0.0, 1.0, 0.0],
-];
+static NODES: [[f64; 3]; 15] = with_middles(&super::wedge6::NODES, &EDGES);
 
 static FACES: [Face; 5] = [
-    Face {
-        kind: ElementKind::Tri6,
-        nodes: &[0, 2, 1, 8, 7, 6],
-    },
-    Face {
-        kind: ElementKind::Tri6,
-        nodes: &[3, 4, 5, 9, 10, 11],
-    },
-    Face {
-        kind: ElementKind::Quad8,
-        nodes: &[0, 1, 4, 3, 6, 13, 9, 12],
-    },
-    Face {
-        kind: ElementKind::Quad8,
-        nodes: &[1, 2, 5, 4, 7, 14, 10, 13],
-    },
-    Face {
-        kind: ElementKind::Quad8,
-        nodes: &[2, 0, 3, 5, 8, 12, 11, 14],
-    },
+    Face::of(ElementKind::Tri6, &[0, 2, 1, 8, 7, 6]),
+    Face::of(ElementKind::Tri6, &[3, 4, 5, 9, 10, 11]),
+    Face::of(ElementKind::Quad8, &[0, 1, 4, 3, 6, 13, 9, 12]),
+    Face::of(ElementKind::Quad8, &[1, 2, 5, 4, 7, 14, 10, 13]),
+    Face::of(ElementKind::Quad8, &[2, 0, 3, 5, 8, 12, 11, 14]),
 ];
 
-/// Corners at the ends of the edges of a triangle.
-const EDGES: [[usize; 2]; 3] = [[0, 1], [1, 2], [2, 0]];
+/// Corners at the ends of the edges, those of the first triangle first.
+const EDGES: [[usize; 2]; 9] = edges_of_prism();
 
 impl ReferenceElement for Wedge15 {
     fn nodes(&self) -> &'static [[f64; 3]] {
@@ -96,10 +67,6 @@ impl ReferenceElement for Wedge15 {
                 d[1] += factor * SLOPES[corner][1];
             }
         }
-    }
-
-    fn second_derivatives(&self, _xi: [f64; 3], d: &mut [[f64; 3]]) {
-        d.fill([0.0; 3]);
     }
 
     fn faces(&self) -> &'static [Face] {

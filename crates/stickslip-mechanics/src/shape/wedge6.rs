@@ -3,7 +3,7 @@ use super::reference::{ElementKind, Face, QuadraturePoint, ReferenceElement};
 /// The 6-node wedge: a triangle times a line.
 pub(super) struct Wedge6;
 
-static NODES: [[f64; 3]; 6] = [
+pub(super) static NODES: [[f64; 3]; 6] = [
     [0.0, 0.0, -1.0],
     [1.0, 0.0, -1.0],
     [0.0, 1.0, -1.0],
@@ -13,26 +13,11 @@ static NODES: [[f64; 3]; 6] = [
 ];
 
 static FACES: [Face; 5] = [
-    Face {
-        kind: ElementKind::Tri3,
-        nodes: &[0, 2, 1],
-    },
-    Face {
-        kind: ElementKind::Tri3,
-        nodes: &[3, 4, 5],
-    },
-    Face {
-        kind: ElementKind::Quad4,
-        nodes: &[0, 1, 4, 3],
-    },
-    Face {
-        kind: ElementKind::Quad4,
-        nodes: &[1, 2, 5, 4],
-    },
-    Face {
-        kind: ElementKind::Quad4,
-        nodes: &[2, 0, 3, 5],
-    },
+    Face::of(ElementKind::Tri3, &[0, 2, 1]),
+    Face::of(ElementKind::Tri3, &[3, 4, 5]),
+    Face::of(ElementKind::Quad4, &[0, 1, 4, 3]),
+    Face::of(ElementKind::Quad4, &[1, 2, 5, 4]),
+    Face::of(ElementKind::Quad4, &[2, 0, 3, 5]),
 ];
 
 impl ReferenceElement for Wedge6 {
@@ -55,10 +40,6 @@ impl ReferenceElement for Wedge6 {
             let [a, b] = SLOPES[i % 3];
             *d = [a * across, b * across, 0.5 * end * l[i % 3]];
         }
-    }
-
-    fn second_derivatives(&self, _xi: [f64; 3], d: &mut [[f64; 3]]) {
-        d.fill([0.0; 3]);
     }
 
     fn faces(&self) -> &'static [Face] {

@@ -4,7 +4,7 @@
 //! touch: a problem of linear inequalities in as many unknowns as there are free motions. Where there is no such sum, what is left of the loads is the motion
 //! that nothing stops. Of contact the most is believed: every point meets what it faces, and friction is as large as it may be.
 
-use super::doctor::{DoctorCause, Finding, Opposite, Severity, Suspect, body_at, let_go};
+use super::doctor::{DoctorCause, Finding, Opposite, Suspect, body_at, let_go};
 use super::view::View;
 use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::contact::law::friction::FrictionPoint;
@@ -192,7 +192,8 @@ impl View<'_> {
         let gone = let_go(self, &moved);
         let first: String = gone.iter().map(|g| format!("{}; ", g.advice)).collect();
         let help = format!("{first}{help}");
-        let mut finding = Finding::new(cause, Severity::Error, message.clone())
+        let mut finding = cause
+            .error(message.clone())
             .blame(body_at(
                 self.model,
                 &body,

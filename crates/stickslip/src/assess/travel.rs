@@ -1,6 +1,6 @@
 //! How far bodies have turned and moved: figures that see what the linear theory does not.
 
-use super::doctor::{self, DoctorCause, Finding, LocationKind, Severity, Suspect};
+use super::doctor::{self, DoctorCause, Finding, LocationKind, Suspect};
 use super::figures::{DISPLACEMENT, LOCAL_ROTATION, ROTATION, STRAIN};
 use super::quality::Gate;
 use super::view::View;
@@ -150,13 +150,9 @@ impl View<'_> {
         if findings.iter().any(known) {
             return;
         }
-        let mut finding = Finding::new(
-            DoctorCause::FarAway,
-            Severity::Warning,
-            format!(
-                "body {body} has moved by {way:.3e}, {moved:.2e} times the size of the model and the way that is prescribed"
-            ),
-        )
+        let mut finding = DoctorCause::FarAway.warning(format!(
+            "body {body} has moved by {way:.3e}, {moved:.2e} times the size of the model and the way that is prescribed"
+        ))
         .blame(Suspect::body(body, "far from where it was"))
         .advise("if it is not meant to fly or fall, look for an obstacle or a support that is missing, and for loads, masses and velocities in the wrong unit");
         finding.step = Some(self.step_name().to_string());

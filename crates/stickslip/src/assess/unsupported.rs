@@ -1,6 +1,6 @@
 //! Bodies that nothing holds, for a person: before a step begins, and after an increment in which one could not be brought to rest.
 
-use super::doctor::{DoctorCause, Finding, Severity, Suspect, body_at, let_go};
+use super::doctor::{DoctorCause, Finding, Suspect, body_at, let_go};
 use super::view::View;
 use crate::contact::look;
 use crate::error::RunError;
@@ -48,7 +48,7 @@ impl View<'_> {
         let message = format!(
             "{called}: body {body} is free to move as a rigid body ({what}): neither supports nor springs nor contact can hold it{by}"
         );
-        let mut finding = Finding::new(DoctorCause::FreeRigidMode, Severity::Error, message);
+        let mut finding = DoctorCause::FreeRigidMode.error(message);
         let mut culprits = Vec::new();
         for (motion, push, driven) in &refused {
             let (body, what) = self.describe(&all, motion);

@@ -1,7 +1,7 @@
 use std::ops::Range;
 
 use super::contract::Cut;
-use crate::linear::symbolic::FIXED;
+use crate::linear::ordering::NONE;
 use crate::linear::{LinearError, Matrix};
 
 /// The free dofs of a body, those of the interior first: both in ascending order, known by their *positions*.
@@ -11,7 +11,7 @@ pub struct Split {
     origin: usize,
     pub(super) interior: Vec<u32>,
     pub(super) root: Vec<u32>,
-    /// The position of each dof of the body, or [`FIXED`].
+    /// The position of each dof of the body, or [`NONE`].
     position: Vec<u32>,
 }
 
@@ -42,7 +42,7 @@ impl Split {
             list.extend(free(point).map(|dof| dof as u32));
         }
         let origin = points.start * b;
-        let mut position = vec![FIXED; points.len() * b];
+        let mut position = vec![NONE; points.len() * b];
         for (at, &dof) in interior.iter().chain(&root).enumerate() {
             position[dof as usize - origin] = at as u32;
         }
@@ -86,7 +86,7 @@ impl Split {
     /// The position of a dof: `None` where it is no unknown, or of another body.
     pub fn position(&self, dof: usize) -> Option<usize> {
         let position = *self.position.get(dof.checked_sub(self.origin)?)?;
-        (position != FIXED).then_some(position as usize)
+        (position != NONE).then_some(position as usize)
     }
 
     /// Whether a dof is of the body.

@@ -8,7 +8,6 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use super::super::ordering::NONE;
-use super::super::symbolic::FIXED;
 use super::numeric::PartialFactor;
 use super::symbolic::Fronts;
 use super::tree::FrontTree;
@@ -145,7 +144,7 @@ impl Header {
             smallest_pivot: (dof, ratio),
             ..
         } = header;
-        let dofs = points.checked_mul(block).filter(|&n| n < FIXED as usize);
+        let dofs = points.checked_mul(block).filter(|&n| n < NONE as usize);
         let sane = dofs.is_some()
             && (2..=3).contains(&block)
             && start <= end
@@ -176,7 +175,7 @@ fn check(mut fronts: Fronts, row_counts: &[u32]) -> Option<Fronts> {
     let n = interior + fronts.root.len();
     let origin = fronts.points.start * fronts.shape.1;
     for (local, &position) in fronts.position_of.iter().enumerate() {
-        if position == FIXED {
+        if position == NONE {
             continue;
         }
         let position = position as usize;

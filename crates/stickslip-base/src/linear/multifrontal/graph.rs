@@ -2,13 +2,15 @@
 
 use std::ops::Range;
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::sparse::SymbolicSparseColMatRef;
-use faer::sparse::linalg::cholesky::simplicial;
-
-use super::super::ordering::{Graph, NONE};
+use super::super::ordering::{Graph, NONE, elimination_order, elimination_tree};
 use super::super::{BlockCsr, LinearError};
 use super::supernodes::Supernodes;
+
+/// The nodes in the order of elimination, and the step above each step in the elimination tree, or [`NONE`].
+pub(super) struct Elimination {
+    pub order: Vec<u32>,
+    pub tree: Vec<u32>,
+}
 
 /// The points of a substructure that have free dofs, as nodes of a graph: those that are eliminated, behind them the kept ones.
 pub(super) struct Nodes<'a> {
@@ -22,6 +24,8 @@ pub(super) struct Nodes<'a> {
     outer: Vec<u32>,
     /// The node of each of the points, or [`NONE`].
     node_of: Vec<u32>,
+    /// Pairs of nodes that are coupled although the matrix does not couple them, both ways, ascending.
+    extra: Vec<(u32, u32)>,
 }
 
 impl<'a> Nodes<'a> {
@@ -38,6 +42,7 @@ impl<'a> Nodes<'a> {
             inner: Vec::new(),
             outer: Vec::new(),
             node_of: vec![NONE; points.len()],
+            extra: Vec::new(),
             points,
         };
         nodes.check_closed()?;
@@ -71,6 +76,28 @@ impl<'a> Nodes<'a> {
             }
         }
         Ok(())
+    }
+
+    /// Couples the dofs of each group with each other.
+    pub fn couple(&mut self, groups: &[Vec<usize>]) {
+        let mut extra = Vec::new();
+        for group in groups {
+            let points = group.iter().map(|dof| dof / self.matrix.block_size());
+            let mut nodes: Vec<u32> = points
+                .map(|point| self.node_of[point - self.points.start])
+                .filter(|&node| node != NONE)
+                .collect();
+            nodes.sort_unstable();
+            nodes.dedup();
+            for &i in &nodes {
+                let coupled = self.matrix.neighbours(self.point(i));
+                let new = |j: &u32| coupled.binary_search(&(self.point(*j) as u32)).is_err();
+                extra.extend(nodes.iter().copied().filter(new).map(|j| (i, j)));
+            }
+        }
+        extra.sort_unstable();
+        extra.dedup();
+        self.extra = extra;
     }
 
     fn free_of(&self, point: usize) -> impl Iterator<Item = usize> {
@@ -109,10 +136,26 @@ impl<'a> Nodes<'a> {
             .filter_map(|&other| (other as usize).checked_sub(self.points.start))
             .filter_map(|local| self.node_of.get(local).copied())
             .filter(|&node| node != NONE)
+            .chain(self.extra_of(node))
+    }
+
+    fn extra_of(&self, node: u32) -> impl Iterator<Item = u32> {
+        let start = self.extra.partition_point(|pair| pair.0 < node);
+        let own = self.extra[start..].iter();
+        own.take_while(move |pair| pair.0 == node)
+            .map(|pair| pair.1)
+    }
+
+    /// The order in which those that are eliminated leave few entries.
+    pub fn elimination(&self) -> Elimination {
+        let graph = self.inner_graph();
+        let order = elimination_order(&graph);
+        let tree = elimination_tree(&graph, &order);
+        Elimination { order, tree }
     }
 
     /// The couplings of the nodes that are eliminated.
-    pub fn inner_graph(&self) -> Graph {
+    fn inner_graph(&self) -> Graph {
         let mut graph = Graph {
             starts: vec![0],
             neighbours: Vec::new(),
@@ -127,32 +170,31 @@ impl<'a> Nodes<'a> {
         graph
     }
 
-    /// Entries in every column of the factor of the graph of points, by step of elimination; `order` has the nodes eliminated.
-    pub fn column_counts(&self, order: &[u32]) -> Result<Vec<usize>, LinearError> {
-        let n = self.count();
+    /// Entries in every column of the factor, by step of elimination, if a row counts for as much as `weight` says of its node: each row is a
+    /// subtree of the elimination tree.
+    pub fn column_counts(
+        &self,
+        elimination: &Elimination,
+        weight: impl Fn(u32) -> usize,
+    ) -> Vec<usize> {
+        let Elimination { order, tree } = elimination;
         let nodes = self.with_kept(order.iter().copied());
         let step_of = inverse(&nodes);
-        // The upper triangle, column by column; couplings among the kept points do not matter here.
-        let mut starts = vec![0];
-        let mut rows = Vec::new();
-        for (step, &node) in nodes.iter().enumerate() {
-            rows.extend(
-                self.coupled(node)
-                    .map(|other| step_of[other as usize] as usize)
-                    .filter(|&other| other < step && other < self.inner.len()),
-            );
-            rows.push(step);
-            starts.push(rows.len());
+        let mut counts: Vec<usize> = order.iter().map(|&node| weight(node)).collect();
+        let mut seen_by = vec![NONE; counts.len()];
+        for (row, &node) in nodes.iter().enumerate() {
+            let own = weight(node);
+            let end = row.min(counts.len());
+            for other in self.coupled(node) {
+                let mut step = step_of[other as usize] as usize;
+                while step < end && seen_by[step] != row as u32 {
+                    seen_by[step] = row as u32;
+                    counts[step] += own;
+                    step = tree[step] as usize;
+                }
+            }
         }
-        let upper = SymbolicSparseColMatRef::new_unsorted_checked(n, n, &starts, None, &rows);
-        let scratch = simplicial::prefactorize_symbolic_cholesky_scratch::<usize>(n, rows.len());
-        let mut memory =
-            MemBuffer::try_new(scratch).map_err(|_| LinearError::OutOfMemory { bytes: 0 })?;
-        let mut parents = vec![0isize; n];
-        let mut counts = vec![0usize; n];
-        let stack = MemStack::new(&mut memory);
-        simplicial::prefactorize_symbolic_cholesky(&mut parents, &mut counts, upper, stack);
-        Ok(counts)
+        counts
     }
 
     /// The nodes coupled to each group of steps behind its own ones, in the order of elimination by groups: couplings of its own and of its

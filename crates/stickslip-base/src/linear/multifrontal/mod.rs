@@ -4,9 +4,11 @@
 //! The multifrontal method ([Duff and Reid 1983](crate::references::duff_reid_1983),
 //! [Liu 1992](crate::references::liu_1992)): columns of the factor with nearly the same rows form a *front*; what its
 //! elimination leaves to its rows, its contribution, is added to the front above it, and at last to the kept dofs.
+//! With nothing kept it is the [`Factor`] of a whole matrix.
 //!
 //! Every sum is made in an order given by [`Fronts`]: the bits of all results are the same on any number of threads.
 
+mod complete;
 mod dense;
 mod encode;
 mod graph;
@@ -20,5 +22,6 @@ mod symbolic;
 mod tests;
 mod tree;
 
-pub use numeric::{Numbers, PartialFactor, Workspace};
+pub use complete::{Factor, Symbolic};
+pub use numeric::{Numbers, PartialFactor, SINGULAR_ROUNDINGS, Workspace};
 pub use symbolic::Fronts;

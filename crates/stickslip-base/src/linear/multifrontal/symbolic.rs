@@ -1,9 +1,8 @@
 use std::ops::Range;
 
-use super::super::ordering::{NONE, elimination_order, elimination_tree};
-use super::super::symbolic::FIXED;
+use super::super::ordering::NONE;
 use super::super::{BlockCsr, LinearError};
-use super::graph::Nodes;
+use super::graph::{Elimination, Nodes};
 use super::schedule::Piece;
 use super::supernodes::Supernodes;
 use super::tree::FrontTree;
@@ -20,7 +19,7 @@ pub struct Fronts {
     pub(super) points: Range<usize>,
     pub(super) interior: Vec<u32>,
     pub(super) root: Vec<u32>,
-    /// The position of each dof of `points`, or [`FIXED`].
+    /// The position of each dof of `points`, or [`NONE`].
     pub(super) position_of: Vec<u32>,
     /// The fronts.
     pub(super) tree: FrontTree,
@@ -52,15 +51,18 @@ impl Fronts {
         assert_eq!(kept.len(), matrix.points(), "length of `kept`");
         assert!(points.start <= points.end && points.end <= kept.len());
         let nodes = Nodes::new(matrix, points, fixed, kept)?;
-        let graph = nodes.inner_graph();
-        let order = elimination_order(&graph);
-        let tree = elimination_tree(&graph, &order);
-        drop(graph);
-        let counts = nodes.column_counts(&order)?;
-        let counts = &counts[..nodes.inner.len()];
-        let supernodes = Supernodes::new(&tree, counts, matrix.block_size());
-        let rows = nodes.rows(&order, &supernodes);
-        Fronts::of_groups(&nodes, &order, supernodes, &rows)
+        Fronts::of_nodes(&nodes, &nodes.elimination())
+    }
+
+    /// For an order of elimination.
+    pub(super) fn of_nodes(
+        nodes: &Nodes,
+        elimination: &Elimination,
+    ) -> Result<Fronts, LinearError> {
+        let counts = nodes.column_counts(elimination, |_| 1);
+        let supernodes = Supernodes::new(&elimination.tree, &counts, nodes.shape().1);
+        let rows = nodes.rows(&elimination.order, &supernodes);
+        Fronts::of_groups(nodes, &elimination.order, supernodes, &rows)
     }
 
     /// From the groups of steps eliminated together, and the nodes in the rows below each.
@@ -81,7 +83,7 @@ impl Fronts {
         }
         let kept = nodes.inner.len()..nodes.count();
         let root: Vec<u32> = kept.flat_map(|node| nodes.free(node as u32)).collect();
-        if interior.len() + root.len() >= FIXED as usize {
+        if interior.len() + root.len() >= NONE as usize {
             return Err(LinearError::OutOfMemory { bytes: 0 });
         }
         let mut fronts = Fronts {
@@ -114,7 +116,7 @@ impl Fronts {
     /// Fills `position_of` from `interior` and `root`.
     pub(super) fn number_positions(&mut self) {
         let b = self.shape.1;
-        self.position_of = vec![FIXED; self.points.len() * b];
+        self.position_of = vec![NONE; self.points.len() * b];
         for (position, &dof) in self.interior.iter().chain(&self.root).enumerate() {
             self.position_of[dof as usize - self.points.start * b] = position as u32;
         }
@@ -146,6 +148,21 @@ impl Fronts {
         self.targets = targets;
         self.pieces = Piece::partition(&self.tree);
         Some(())
+    }
+
+    /// Two of these free dofs whose coupling the factor has no entry for. What it stores counts, not what the matrix couples: fill can be used by any
+    /// block. Of an analysis that keeps nothing.
+    pub(super) fn first_uncovered(&self, dofs: &[usize]) -> Option<[usize; 2]> {
+        let positions = dofs.iter().map(|&dof| (self.position_of[dof], dof));
+        let mut free: Vec<_> = positions.filter(|(at, _)| *at != NONE).collect();
+        free.sort_unstable();
+        free.iter().enumerate().find_map(|(i, &(column, dof))| {
+            let front = self.tree.first.partition_point(|&first| first <= column) - 1;
+            let (end, below) = (self.tree.first[front + 1], self.rows(front));
+            let missing = |row: &u32| *row >= end && below.binary_search(row).is_err();
+            let other = free[i + 1..].iter().find(|(row, _)| missing(row))?.1;
+            Some([dof, other])
+        })
     }
 
     /// Number of fronts, without the root.

@@ -1,10 +1,10 @@
 //! Whether contact can balance what acts on a body that nothing else holds.
 
-use super::cause::DoctorCause;
-use super::finding::{Finding, Severity, Suspect};
+use super::finding::{DoctorCause, Finding};
 use super::friction::friction_coefficient;
 use super::places;
 use super::surfaces::Opposite;
+use super::suspect::Suspect;
 use crate::assess::view::View;
 use crate::contact::interface::Primary;
 use crate::math::{Vec3, add, add_scaled, dot, norm, normalize, scale, vector};
@@ -100,12 +100,9 @@ fn beyond(view: &View, t: f64, slight: f64) -> Option<Finding> {
             slight,
         );
         if let Some((cause, message)) = found {
-            let finding = Finding::new(cause, Severity::Warning, message)
-                .blame(places::body(
-                    model,
-                    &body.name,
-                    "held by contact alone".into(),
-                ))
+            let finding = cause
+                .warning(message)
+                .blame(places::body(model, &body.name, "held by contact alone"))
                 .blame(Suspect::interface(&push.interface, ""));
             return Some(match cause {
                 DoctorCause::FreeRigidMode => {

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use super::cause::DoctorCause;
-use super::finding::{Finding, LocationKind, Severity};
+use super::finding::{DoctorCause, Finding};
+use super::suspect::{LocationKind, Severity};
 use crate::error::Error;
 use crate::io::vtu;
 use crate::mesh::Mesh;

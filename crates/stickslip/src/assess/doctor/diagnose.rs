@@ -1,14 +1,14 @@
 //! From an attempt that failed to a finding.
 
-use super::cause::DoctorCause;
 use super::check;
-use super::finding::{Finding, LocationKind, Severity, Suspect};
+use super::finding::{DoctorCause, Finding};
 use super::friction::friction_coefficient;
 use super::motions::{FloatingBody, Row, floating, rows};
 use super::places;
 use super::record::Counters;
 use super::signs::{prescribed_slip, signs, too_large_slip};
 use super::surfaces::Opposite;
+use super::suspect::{LocationKind, Severity, Suspect};
 use super::{balance, coupling};
 use crate::assess::view::View;
 use crate::body::Formulation;
@@ -46,17 +46,17 @@ pub(crate) fn diagnose(
         Cause::Singular => singular(view, trial, failure),
         Cause::LinearSolver | Cause::Interior => linear(view, trial),
         Cause::NotConverged => not_converged(view, trial, &evidence),
-        Cause::NotFinite => Finding::new(DoctorCause::NotFinite, Severity::Warning, "")
+        Cause::NotFinite => DoctorCause::NotFinite
+            .warning("")
             .advise("smaller increments; look for a stiffness or a load that is far too large"),
-        Cause::CollapsedCell => Finding::new(DoctorCause::CollapsedCell, Severity::Warning, "")
+        Cause::CollapsedCell => DoctorCause::CollapsedCell
+            .warning("")
             .advise("repair the mesh there, or take smaller increments"),
-        Cause::TooFar => Finding::new(DoctorCause::TooFar, Severity::Note, ""),
-        Cause::Reach => Finding::new(DoctorCause::BeyondReach, Severity::Note, ""),
-        Cause::Memory => {
-            Finding::new(DoctorCause::Stopped, Severity::Error, "").advise(MORE_MEMORY)
-        }
-        Cause::Engine => Finding::new(DoctorCause::Stopped, Severity::Error, ""),
-        Cause::Event | Cause::Interrupted => Finding::new(DoctorCause::Stopped, Severity::Note, ""),
+        Cause::TooFar => DoctorCause::TooFar.note(""),
+        Cause::Reach => DoctorCause::BeyondReach.note(""),
+        Cause::Memory => DoctorCause::Stopped.error("").advise(MORE_MEMORY),
+        Cause::Engine => DoctorCause::Stopped.error(""),
+        Cause::Event | Cause::Interrupted => DoctorCause::Stopped.note(""),
     });
     finding = with_drivers(finding, view, trial);
     if finding.message.is_empty() {
@@ -112,14 +112,10 @@ fn root(view: &View, cause: &Cause) -> Option<Finding> {
             // Laws of the families are finite wherever they are asked.
             let own = view.contact.interfaces.iter().find(|i| i.laws.user.any());
             let faulty = own.map(|i| {
-                Finding::new(
-                    DoctorCause::FaultyLaw,
-                    Severity::Warning,
-                    format!(
-                        "interface {}: a function that is used as a law gives something that is not finite, or a negative limit of friction",
-                        i.name
-                    ),
-                )
+                DoctorCause::FaultyLaw.warning(format!(
+                    "interface {}: a function that is used as a law gives something that is not finite, or a negative limit of friction",
+                    i.name
+                ))
                 .blame(Suspect::interface(&i.name, "laws from functions"))
                 .advise("try the function at the gaps, pressures and speeds of the last increment")
             });
@@ -138,10 +134,9 @@ pub(crate) fn stopped(view: &View, error: &RunError) -> Finding {
         finding.time = Some(error.time);
         return finding;
     }
-    let mut finding = Finding::new(DoctorCause::Stopped, Severity::Error, error.message.clone());
-    for culprit in &error.culprits {
-        finding = finding.blame(Suspect::key("", culprit.clone()));
-    }
+    let culprits = error.culprits.iter().cloned();
+    let mut finding = (DoctorCause::Stopped.error(error.message.clone()))
+        .blame_all(culprits.map(|culprit| Suspect::key("", culprit)));
     finding.advice.extend(error.help.clone());
     finding.step = Some(view.step_name().to_string());
     finding.time = Some(error.time);
@@ -152,12 +147,8 @@ pub(crate) fn stopped(view: &View, error: &RunError) -> Finding {
 fn point(e: &Evidence, remark: String) -> Suspect {
     Suspect {
         what: LocationKind::Node,
-        name: e.interface.clone(),
         id: e.node,
-        interface: Some(e.interface.clone()),
-        body: None,
-        position: None,
-        remark,
+        ..Suspect::interface(&e.interface, remark)
     }
     .at(e.position)
 }
@@ -227,17 +218,14 @@ fn singular(view: &View, trial: &Trial, failure: &StepFailure) -> Finding {
 
 fn near_singular(view: &View, failure: &StepFailure) -> Finding {
     let model = view.model;
-    let mut finding = Finding::new(
-        DoctorCause::NearSingularOperator,
-        Severity::Warning,
-        "the system is singular although every body is held",
-    )
-    .advise(singular_help(model, failure.dof));
+    let mut finding = DoctorCause::NearSingularOperator
+        .warning("the system is singular although every body is held")
+        .advise(singular_help(model, failure.dof));
     if let Some(dof) = failure.dof {
         let (point, component) = model.dofs.locate(dof);
         if point < model.mesh.points.len() {
             let direction = ["x", "y", "z"][component];
-            finding = finding.blame(node(view, point, format!("direction {direction}")));
+            finding = finding.blame(places::node(model, point, format!("direction {direction}")));
         }
     }
     finding
@@ -262,22 +250,6 @@ pub(crate) fn singular_help(model: &Model, dof: Option<usize>) -> String {
     }
 }
 
-/// A point of the mesh.
-fn node(view: &View, point: usize, remark: String) -> Suspect {
-    let model = view.model;
-    let body = model.bodies.iter().find(|b| b.points.contains(&point));
-    let name = body.map_or(String::new(), |b| b.name.clone());
-    Suspect {
-        what: LocationKind::Node,
-        id: Some(model.mesh.point_ids[point]),
-        body: Some(name.clone()),
-        name,
-        remark,
-        ..Suspect::default()
-    }
-    .at(model.mesh.points[point])
-}
-
 /// Bodies that move as a whole, what drives them, and how far they are from what might hold them.
 fn free_mode(view: &View, trial: &Trial, free: &[FloatingBody], how: &str) -> Finding {
     let model = view.model;
@@ -286,15 +258,9 @@ fn free_mode(view: &View, trial: &Trial, free: &[FloatingBody], how: &str) -> Fi
     if let Some(body) = touching.into_iter().find(|&b| view.touches(b)) {
         return lost(view, free, body);
     }
-    let mut finding = Finding::new(
-        DoctorCause::FreeRigidMode,
-        Severity::Warning,
-        "a body is free to move as a rigid body",
-    );
-    for l in free {
-        let remark = format!("{} {how}", l.motion);
-        finding = finding.blame(places::body(model, &l.body, remark));
-    }
+    let mut finding = DoctorCause::FreeRigidMode
+        .warning("a body is free to move as a rigid body")
+        .blame_all(free.iter().map(|l| l.place(model, how)));
     for (interface, accepted) in view.contact.interfaces.iter().zip(view.contacts()) {
         let Some((i, gap)) = smallest_gap(accepted, trial.from) else {
             continue;
@@ -318,20 +284,15 @@ fn lost(view: &View, free: &[FloatingBody], body: usize) -> Finding {
     let name = &model.bodies[body].name;
     let own = free.iter().find(|l| l.body == *name);
     let motion = own.map_or("", |l| l.motion.as_str());
-    let mut finding = Finding::new(
-        DoctorCause::SlidesAway,
-        Severity::Warning,
-        format!(
-            "body {name} slides, rolls or lifts off as a whole ({motion}): contact and friction do not hold it"
-        ),
-    );
-    for l in free {
-        let remark = format!("{} is not resisted any more", l.motion);
-        finding = finding.blame(places::body(model, &l.body, remark));
-    }
-    finding
-        .advise("no equilibrium was found: lower what drives the body, raise friction or support the motion")
-        .advise("make the step dynamic if the body is meant to slide or take off")
+    let resisted = free
+        .iter()
+        .map(|l| l.place(model, "is not resisted any more"));
+    DoctorCause::SlidesAway.warning(format!(
+        "body {name} slides, rolls or lifts off as a whole ({motion}): contact and friction do not hold it"
+    ))
+    .blame_all(resisted)
+    .advise("no equilibrium was found: lower what drives the body, raise friction or support the motion")
+    .advise("make the step dynamic if the body is meant to slide or take off")
 }
 
 /// A finding about a body that moves as a whole with what drives it, if it is not there yet.
@@ -358,7 +319,7 @@ fn with_drivers(finding: Finding, view: &View, trial: &Trial) -> Finding {
 /// With the loads, supports and obstacles that drive a body, and the supports that held it in the step before.
 fn driven(finding: Finding, view: &View, body: usize, trial: &Trial) -> Finding {
     let drivers = view.drivers(body, trial.to).into_iter();
-    let finding = drivers.fold(finding, |f, d| f.blame(Suspect::key(d.key, d.what)));
+    let finding = finding.blame_all(drivers.map(|d| Suspect::key(d.key, d.what)));
     let free: Vec<String> = (finding.guilty.iter())
         .filter(|g| g.what == LocationKind::Body)
         .map(|g| g.name.clone())
@@ -398,24 +359,20 @@ fn linear(view: &View, trial: &Trial) -> Finding {
     }
     let weak = floating(view, trial.to, &[]);
     if weak.is_empty() {
-        return Finding::new(DoctorCause::LinearSolver, Severity::Warning, "")
+        return DoctorCause::LinearSolver
+            .warning("")
             .advise("set `solver.method = \"sparse\"`");
     }
-    let mut finding = Finding::new(
-        DoctorCause::NearSingularOperator,
-        Severity::Warning,
-        "bodies are held by contact alone, and hardly by that",
-    )
-    .advise("support these motions, or hold them by weak springs (`[load.NAME] spring`)");
-    for l in weak {
-        let remark = format!("{} is held by contact alone", l.motion);
-        finding = finding.blame(places::body(view.model, &l.body, remark));
-    }
-    finding
+    DoctorCause::NearSingularOperator
+        .warning("bodies are held by contact alone, and hardly by that")
+        .advise("support these motions, or hold them by weak springs (`[load.NAME] spring`)")
+        .blame_all(
+            weak.iter()
+                .map(|l| l.place(view.model, "is held by contact alone")),
+        )
 }
 
 fn not_converged(view: &View, trial: &Trial, evidence: &[&Evidence]) -> Finding {
-    let of = |cause, message: String| Finding::new(cause, Severity::Warning, message);
     let dynamic = view.model.steps[view.frame.step].dynamic.is_some();
     if !dynamic {
         let free = floating(view, trial.to, &contact_rows(view, trial.to));
@@ -425,34 +382,25 @@ fn not_converged(view: &View, trial: &Trial, evidence: &[&Evidence]) -> Finding 
             return finding;
         }
         if let Some(first) = free.first() {
-            let mut finding = of(
-                DoctorCause::SlidesAway,
-                format!(
-                    "body {} slides or tips off as a whole ({}): contact and friction do not balance the loads",
-                    first.body, first.motion
-                ),
-            )
+            let finding = DoctorCause::SlidesAway.warning(format!(
+                "body {} slides or tips off as a whole ({}): contact and friction do not balance the loads",
+                first.body, first.motion
+            ))
             .advise("no equilibrium exists: lower the load, raise friction or support the motion")
             .advise("make the step dynamic if the body is meant to take off");
-            for l in &free {
-                let remark = format!("{} is not resisted any more", l.motion);
-                finding = finding.blame(places::body(view.model, &l.body, remark));
-            }
-            return finding;
+            let gone = |l: &FloatingBody| l.place(view.model, "is not resisted any more");
+            return finding.blame_all(free.iter().map(gone));
         }
     }
     if !dynamic && let Some(finding) = balance::at_limit(view, trial.to) {
         return finding;
     }
     if let Some((mu, limit, e)) = beyond_coupling(view, evidence) {
-        return of(
-            DoctorCause::CoulombNonUniqueness,
-            format!(
-                "the coefficient of friction, {mu:.3}, is above the coupling limit {limit:.3} of interface {}: there may be several \
-                 solutions, or none",
-                e.interface
-            ),
-        )
+        return DoctorCause::CoulombNonUniqueness.warning(format!(
+            "the coefficient of friction, {mu:.3}, is above the coupling limit {limit:.3} of interface {}: there may be several \
+             solutions, or none",
+            e.interface
+        ))
         .blame(point(
             e,
             format!("k_t / |k_tn| = {limit:.3}, friction {mu:.3}"),
@@ -476,7 +424,7 @@ fn not_converged(view: &View, trial: &Trial, evidence: &[&Evidence]) -> Finding 
         .or(signs.filter(|_| told))
         .or_else(|| check::suspects(view.model, dynamic).into_iter().next())
         .or(to_and_fro)
-        .unwrap_or_else(|| of(DoctorCause::NotConverged, String::new()))
+        .unwrap_or_else(|| DoctorCause::NotConverged.warning(""))
 }
 
 /// The first guilty point at which friction is above the coupling limit: coefficient, limit, point.

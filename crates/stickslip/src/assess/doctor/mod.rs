@@ -8,7 +8,6 @@
 //! The doctor only looks: nothing here changes a result.
 
 mod balance;
-mod cause;
 mod check;
 mod coupling;
 mod culprits;
@@ -20,11 +19,12 @@ mod places;
 mod record;
 mod signs;
 mod surfaces;
+mod suspect;
 mod unjoined;
 mod watch;
 
-pub use cause::DoctorCause;
-pub use finding::{Finding, LocationKind, MOST_GUILTY, Severity, Suspect};
+pub use finding::{DoctorCause, Finding, MOST_GUILTY};
+pub use suspect::{LocationKind, Severity, Suspect};
 
 pub(crate) use check::{examine, let_go, longest_way};
 pub(crate) use culprits::write as write_culprits;

@@ -1,11 +1,14 @@
 //! Motions of bodies as a whole that nothing holds, whatever is meant to hold them.
 
+use super::places;
 use super::surfaces::Opposite;
+use super::suspect::Suspect;
 use crate::assess::view::View;
 use crate::contact::facet_point::evaluate;
 use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::contact::response::Status;
 use crate::math::Vec3;
+use crate::model::definition::Model;
 use crate::model::rigid::held::HELD;
 use crate::model::rigid::modes::{Mode, modes};
 use crate::model::rigid::null_space;
@@ -23,6 +26,13 @@ pub(super) struct FloatingBody {
     pub body: String,
     /// What it is: `translation x with rotation about z`.
     pub motion: String,
+}
+
+impl FloatingBody {
+    /// The body as a place, with what is said of the motion.
+    pub fn place(&self, model: &Model, how: &str) -> Suspect {
+        places::body(model, &self.body, format!("{} {how}", self.motion))
+    }
 }
 
 /// Motions that neither the supports, springs and couplings at `t` nor `rows` hold.

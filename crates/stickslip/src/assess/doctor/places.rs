@@ -1,6 +1,7 @@
-//! Places of bodies.
+//! Places to look at.
 
-use super::finding::Suspect;
+use super::suspect::{LocationKind, Suspect};
+use crate::contact::interface::InterfaceDefinition;
 use crate::math::Vec3;
 use crate::model::definition::Model;
 
@@ -16,7 +17,7 @@ pub(super) fn bounds(points: &[Vec3]) -> (Vec3, Vec3) {
 }
 
 /// A body as a place: the centre of its box.
-pub(crate) fn body(model: &Model, name: &str, remark: String) -> Suspect {
+pub(crate) fn body(model: &Model, name: &str, remark: impl Into<String>) -> Suspect {
     let guilty = Suspect::body(name, remark);
     match model.bodies.iter().find(|b| b.name == name) {
         Some(body) => {
@@ -25,4 +26,34 @@ pub(crate) fn body(model: &Model, name: &str, remark: String) -> Suspect {
         }
         None => guilty,
     }
+}
+
+/// A point of the mesh as a place, by the body that it belongs to.
+pub(super) fn node(model: &Model, point: usize, remark: impl Into<String>) -> Suspect {
+    let body = model.bodies.iter().find(|b| b.points.contains(&point));
+    let name = body.map_or(String::new(), |b| b.name.clone());
+    Suspect {
+        what: LocationKind::Node,
+        id: Some(model.mesh.point_ids[point]),
+        body: Some(name.clone()),
+        name,
+        remark: remark.into(),
+        ..Suspect::default()
+    }
+    .at(model.mesh.points[point])
+}
+
+/// A point of the secondary as a place.
+pub(super) fn secondary(
+    interface: &InterfaceDefinition,
+    i: usize,
+    remark: impl Into<String>,
+) -> Suspect {
+    let point = &interface.points[i];
+    Suspect {
+        what: LocationKind::Node,
+        id: point.node().map(|one| interface.node_ids[one]),
+        ..Suspect::interface(&interface.name, remark)
+    }
+    .at(interface.place(point))
 }

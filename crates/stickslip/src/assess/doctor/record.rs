@@ -1,6 +1,7 @@
 //! Findings of a run, and what is known of an attempt before it.
 
-use super::finding::{Finding, Suspect};
+use super::finding::Finding;
+use super::suspect::Suspect;
 use crate::error::RunError;
 use crate::newton::Statistics;
 

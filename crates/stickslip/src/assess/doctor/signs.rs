@@ -1,7 +1,7 @@
 //! What guilty points show by themselves, and what supports ask of them.
 
-use super::cause::DoctorCause;
-use super::finding::{Finding, Severity, Suspect};
+use super::finding::{DoctorCause, Finding};
+use super::suspect::Suspect;
 use crate::assess::view::View;
 use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::math::{Vec3, add_scaled, dot, norm, sub};
@@ -23,27 +23,20 @@ pub(super) fn signs(evidence: &[&Evidence]) -> Option<Finding> {
         let all = evidence.iter().map(|e| (measure(e), *e));
         all.max_by(|a, b| a.0.total_cmp(&b.0))
     };
-    let of = |cause, message: String| Finding::new(cause, Severity::Warning, message);
     if let Some((kink, e)) = worst(&|e| e.kink).filter(|w| w.0 > 1.0) {
-        let finding = of(
-            DoctorCause::LawTangentJump,
-            format!(
-                "the normal law of interface {} has a kink where points are: its slope changes by a factor {kink:.1}",
-                e.interface
-            ),
-        );
+        let finding = DoctorCause::LawTangentJump.warning(format!(
+            "the normal law of interface {} has a kink where points are: its slope changes by a factor {kink:.1}",
+            e.interface
+        ));
         return Some(
             finding.advise("smooth the table of the law by more rows, or take smaller increments"),
         );
     }
     if let Some((left, e)) = worst(&|e| e.left as f64).filter(|w| w.0 >= LEFT) {
-        let finding = of(
-            DoctorCause::LostProjection,
-            format!(
-                "points of interface {} leave the outer edge of the primary and come back, up to {left} times",
-                e.interface
-            ),
-        );
+        let finding = DoctorCause::LostProjection.warning(format!(
+            "points of interface {} leave the outer edge of the primary and come back, up to {left} times",
+            e.interface
+        ));
         return Some(
             finding
                 .advise("let the primary surface reach farther than the secondary, or swap the two sides")
@@ -58,14 +51,11 @@ pub(super) fn signs(evidence: &[&Evidence]) -> Option<Finding> {
         return Some(too_large_slip(slip, &e.interface));
     }
     let (flips, e) = worst(&|e| e.flips as f64).filter(|w| w.0 >= CHATTER)?;
-    let finding = of(
-        DoctorCause::Chatter,
-        format!(
-            "points of interface {} go to and fro, the worst with {flips} changes of status ({})",
-            e.interface,
-            e.course.join(" → ")
-        ),
-    );
+    let finding = DoctorCause::Chatter.warning(format!(
+        "points of interface {} go to and fro, the worst with {flips} changes of status ({})",
+        e.interface,
+        e.course.join(" → ")
+    ));
     Some(
         finding
             .advise("smaller increments")
@@ -75,16 +65,12 @@ pub(super) fn signs(evidence: &[&Evidence]) -> Option<Finding> {
 
 /// A finding about slip, in facets.
 pub(super) fn too_large_slip(slip: f64, interface: &str) -> Finding {
-    Finding::new(
-        DoctorCause::TooLargeSlip,
-        Severity::Warning,
-        format!("points of interface {interface} slide over {slip:.2} facets in one increment"),
-    )
-    .blame(Suspect::interface(interface, format!("{slip:.2} facets")))
-    .advise(format!(
-        "increments that are {} times smaller, so that a point slides over half a facet at most",
-        (2.0 * slip).ceil()
-    ))
+    DoctorCause::TooLargeSlip.warning(format!("points of interface {interface} slide over {slip:.2} facets in one increment"))
+        .blame(Suspect::interface(interface, format!("{slip:.2} facets")))
+        .advise(format!(
+            "increments that are {} times smaller, so that a point slides over half a facet at most",
+            (2.0 * slip).ceil()
+        ))
 }
 
 /// The largest slip that supports prescribe over the increment, in facets, and its interface; `None` where it is small.

@@ -3,8 +3,9 @@
 use crate::contact::look;
 use serde::Serialize;
 
-use super::cause::DoctorCause;
-use super::finding::{Finding, LocationKind, Severity, Suspect};
+use super::finding::{DoctorCause, Finding};
+use super::places;
+use super::suspect::Suspect;
 use crate::assess::view::View;
 use crate::contact::interface::ContactView;
 use crate::contact::interface::InterfaceDefinition;
@@ -137,14 +138,10 @@ fn strained(view: &View) -> Vec<Finding> {
         let strain = body.elastic.strain_level(&view.frame.state);
         let name = &body.name;
         (strain > limit && strain.is_finite()).then(|| {
-            Finding::new(
-                DoctorCause::LargeStrain,
-                Severity::Warning,
-                format!(
-                    "body {name} is strained by {strain:.2} in the end, in the mean of its energy: bodies are linear, with small strains, and forces are wrong by about that part"
-                ),
-            )
-            .blame(super::places::body(view.model, name, format!("strain {strain:.2}")))
+            DoctorCause::LargeStrain.warning(format!(
+                "body {name} is strained by {strain:.2} in the end, in the mean of its energy: bodies are linear, with small strains, and forces are wrong by about that part"
+            ))
+            .blame(places::body(view.model, name, format!("strain {strain:.2}")))
             .advise("if that is not meant, look for a load, a way or a stiffness in the wrong unit; for what strains as much as rubber does take another program")
         })
     });
@@ -156,15 +153,11 @@ fn turned(interface: &InterfaceDefinition, watch: &Watch) -> Option<Finding> {
         return None;
     }
     let name = &interface.name;
-    let finding = Finding::new(
-        DoctorCause::TurnedNormals,
-        Severity::Warning,
-        format!(
-            "interface {name}: its surfaces have turned by up to {:.3} rad where they press, and small sliding keeps the normals of the start: shear over pressure is off by up to {:.1} %",
-            watch.turn,
-            100.0 * watch.turn.tan()
-        ),
-    );
+    let finding = DoctorCause::TurnedNormals.warning(format!(
+        "interface {name}: its surfaces have turned by up to {:.3} rad where they press, and small sliding keeps the normals of the start: shear over pressure is off by up to {:.1} %",
+        watch.turn,
+        100.0 * watch.turn.tan()
+    ));
     let finding = Finding {
         time: Some(watch.turned_at),
         ..finding
@@ -192,14 +185,10 @@ fn deep(interface: ContactView) -> Option<Finding> {
         return None;
     }
     let name = &interface.name;
-    let finding = Finding::new(
-        DoctorCause::DeepWear,
-        Severity::Warning,
-        format!(
-            "interface {name}: what is worn off {}. It is added to gaps, and normals and surfaces stay as they were: that holds to first order",
-            said.join(" and ")
-        ),
-    );
+    let finding = DoctorCause::DeepWear.warning(format!(
+        "interface {name}: what is worn off {}. It is added to gaps, and normals and surfaces stay as they were: that holds to first order",
+        said.join(" and ")
+    ));
     Some(
         finding
             .blame(Suspect::interface(name, "worn beyond first order"))
@@ -221,19 +210,12 @@ fn left(view: &View, interface: ContactView, watch: &Watch) -> Option<Finding> {
     }
     let name = &interface.name;
     // What is thrown may well fly on.
-    let severity = match view.model.moves() {
-        true => Severity::Note,
-        false => Severity::Warning,
-    };
-    let finding = Finding::new(
-        DoctorCause::LeftPrimary,
-        severity,
-        format!(
-            "interface {name} carries nothing any more after time {:.4e}: what carried last has gone over the edge of the primary, and nothing lies opposite",
-            watch.carried_at
-        ),
-    );
-    let mut finding = Finding {
+    let finding = DoctorCause::LeftPrimary.warning(format!(
+        "interface {name} carries nothing any more after time {:.4e}: what carried last has gone over the edge of the primary, and nothing lies opposite",
+        watch.carried_at
+    ))
+    .note_unless(!view.model.moves());
+    let finding = Finding {
         time: Some(watch.carried_at),
         ..finding
     }
@@ -241,21 +223,10 @@ fn left(view: &View, interface: ContactView, watch: &Watch) -> Option<Finding> {
         name,
         "its secondary has left its primary",
     ));
-    for &i in beyond {
-        finding = finding.blame(
-            Suspect {
-                what: LocationKind::Node,
-                name: name.clone(),
-                id: (interface.points[i].node()).map(|one| interface.node_ids[one]),
-                interface: Some(name.clone()),
-                remark: "beyond the edge".into(),
-                ..Suspect::default()
-            }
-            .at(interface.place(&interface.points[i])),
-        );
-    }
+    let beyond = beyond.map(|&i| places::secondary(&interface, i, "beyond the edge"));
     Some(
         finding
+            .blame_all(beyond)
             .advise("let the primary reach as far as the motion goes, or let the motion end before its edge")
             .advise("if contact may end there, the result is right: what the model does after that time is not held by this interface"),
     )
@@ -264,18 +235,12 @@ fn left(view: &View, interface: ContactView, watch: &Watch) -> Option<Finding> {
 fn never_carried(interface: &InterfaceDefinition, moves: bool) -> Finding {
     let name = &interface.name;
     // What is thrown may land later than anybody wants to know.
-    let severity = match moves {
-        true => Severity::Note,
-        false => Severity::Warning,
-    };
-    Finding::new(
-        DoctorCause::NeverCarried,
-        severity,
-        format!("interface {name} never carried anything in the whole run"),
-    )
-    .blame(Suspect::interface(name, "no force at any time"))
-    .advise("check that supports and loads press the two bodies together, and the gap between them (`stickslip check`)")
-    .advise("where the bodies do meet, choose the finer surface as secondary")
+    DoctorCause::NeverCarried
+        .warning(format!("interface {name} never carried anything in the whole run"))
+        .note_unless(!moves)
+        .blame(Suspect::interface(name, "no force at any time"))
+        .advise("check that supports and loads press the two bodies together, and the gap between them (`stickslip check`)")
+        .advise("where the bodies do meet, choose the finer surface as secondary")
 }
 
 fn coarse(interface: &InterfaceDefinition, watch: &Watch) -> Option<Finding> {
@@ -285,14 +250,10 @@ fn coarse(interface: &InterfaceDefinition, watch: &Watch) -> Option<Finding> {
         1 => "1 point".to_string(),
         n => format!("{n} points"),
     };
-    let finding = Finding::new(
-        DoctorCause::CoarseContact,
-        Severity::Warning,
-        format!(
-            "interface {name}: contact is resolved by fewer than three points across, {points} of {} in contact at its largest force",
-            found.of
-        ),
-    );
+    let finding = DoctorCause::CoarseContact.warning(format!(
+        "interface {name}: contact is resolved by fewer than three points across, {points} of {} in contact at its largest force",
+        found.of
+    ));
     let mut finding = Finding {
         time: Some(watch.time),
         ..finding

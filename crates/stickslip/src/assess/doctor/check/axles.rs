@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
+use super::super::suspect::Suspect;
 use super::common::{diameter, times};
 use super::units::SIZES;
 use crate::math::{Vec3, distance};
@@ -50,14 +50,10 @@ fn far(scene: &Scene, reference: &Reference) -> Option<Finding> {
     let nearest = nearest.fold(f64::INFINITY, f64::min);
     let name = &reference.name;
     (nearest.is_finite() && size > 0.0 && nearest > SIZES * size).then(|| {
-        Finding::new(
-            DoctorCause::MixedUnits,
-            Severity::Warning,
-            format!(
-                "reference point {name} is {nearest:.3e} away from what goes with it, {:.0} times the size of that, {size:.3e}: is one in millimetres and the other in metres?",
-                nearest / size
-            ),
-        )
+        DoctorCause::MixedUnits.warning(format!(
+            "reference point {name} is {nearest:.3e} away from what goes with it, {:.0} times the size of that, {size:.3e}: is one in millimetres and the other in metres?",
+            nearest / size
+        ))
         .blame(Suspect::key(format!("reference.{name}.point"), format!("{nearest:.3e} away")).at(centre))
         .advise("put the point where the axle is, in the unit of the meshes")
     })
@@ -89,14 +85,10 @@ fn degrees(model: &Model) -> Vec<Finding> {
         };
         let name = &support.name;
         out.push(
-            Finding::new(
-                DoctorCause::MixedUnits,
-                Severity::Note,
-                format!(
-                    "support {name} turns reference point {reference} by {angle:.6} rad, {:.2} turns: rotations are in radians, and a whole number of them looks like degrees",
-                    angle.abs() / TAU
-                ),
-            )
+            DoctorCause::MixedUnits.note(format!(
+                "support {name} turns reference point {reference} by {angle:.6} rad, {:.2} turns: rotations are in radians, and a whole number of them looks like degrees",
+                angle.abs() / TAU
+            ))
             .blame(Suspect::key(format!("support.{name}"), format!("{angle:.6} rad")))
             .advise(format!("if degrees are meant, write {:.9}", angle.to_radians())),
         );

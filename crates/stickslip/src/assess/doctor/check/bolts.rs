@@ -1,8 +1,8 @@
 //! Pretensions that hold nothing: that push their sides apart, that draw them together with next to nothing, or that a later step lets go.
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
 use super::super::places::body;
+use super::super::suspect::Suspect;
 use crate::assess::view::View;
 use crate::body::couplings::{Coupling, Course, Draw, Pretension, Tie};
 use crate::model::definition::{Body, Model};
@@ -72,10 +72,11 @@ impl Bolt<'_> {
 
     /// A finding about what a step does with it.
     fn finding(&self, step: usize, message: String) -> Finding {
-        let finding = Finding::new(DoctorCause::LooseBolt, Severity::Warning, message)
+        let finding = DoctorCause::LooseBolt
+            .warning(message)
             .blame(Suspect::key(self.key(step), ""));
         match self.body {
-            Some(b) => finding.blame(body(self.model, &b.name, "cut by it".into())),
+            Some(b) => finding.blame(body(self.model, &b.name, "cut by it")),
             None => finding,
         }
     }
@@ -149,15 +150,11 @@ impl Bolt<'_> {
             // One that an amplitude takes away is meant to go.
             if let Some(was) = before.filter(|_| value == 0.0 && !table) {
                 return Some(
-                    Finding::new(
-                        DoctorCause::LetGo,
-                        Severity::Note,
-                        format!(
-                            "step {} lets the bolt of pretension {} go: its value is 0 there after {was:.4e} before",
-                            self.step_name(step),
-                            self.name
-                        ),
-                    )
+                    DoctorCause::LetGo.note(format!(
+                        "step {} lets the bolt of pretension {} go: its value is 0 there after {was:.4e} before",
+                        self.step_name(step),
+                        self.name
+                    ))
                     .blame(Suspect::key(self.key(step), "0"))
                     .advise(format!(
                         "if it is to stay tightened, write `pretension.{} = {{ hold = true }}` in step {}: the bolt keeps its length, and the force changes with what the joint carries",

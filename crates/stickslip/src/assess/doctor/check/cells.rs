@@ -1,7 +1,7 @@
 //! Cells that are next to nothing: so flat that their stiffness drowns that of the others.
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, LocationKind, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
+use super::super::suspect::{LocationKind, Suspect};
 use crate::math::{Vec3, add_scaled, determinant, distance, symmetric_eigen};
 use crate::model::definition::{Body, Model};
 use crate::shape::{ElementKind, MAX_NODES};
@@ -32,14 +32,10 @@ fn sliver(model: &Model, body: &Body) -> Option<Finding> {
     }
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (worst, id, kind, _) = *found.first()?;
-    let mut finding = Finding::new(
-        DoctorCause::CollapsedCell,
-        Severity::Warning,
-        format!(
-            "body {}: cell {id} ({kind}) is a sliver, its extents 1 to {worst:.1e}: next to it all other stiffness is lost in rounding",
-            body.name
-        ),
-    );
+    let mut finding = DoctorCause::CollapsedCell.warning(format!(
+        "body {}: cell {id} ({kind}) is a sliver, its extents 1 to {worst:.1e}: next to it all other stiffness is lost in rounding",
+        body.name
+    ));
     for (flat, id, kind, x) in found {
         finding = finding.blame(
             Suspect {

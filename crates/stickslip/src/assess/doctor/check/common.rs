@@ -1,26 +1,11 @@
 //! What several rules look at.
 
-use super::super::finding::{LocationKind, Suspect};
 use super::super::places::bounds;
 use crate::body::couplings::Tie;
 use crate::contact::interface::InterfaceDefinition;
 use crate::math::Vec3;
 use crate::model::definition::Model;
 use crate::model::scene::Scene;
-
-/// A point of the secondary as a place.
-pub(super) fn secondary(interface: &InterfaceDefinition, i: usize, remark: String) -> Suspect {
-    let point = &interface.points[i];
-    Suspect {
-        what: LocationKind::Node,
-        name: interface.name.clone(),
-        id: point.node().map(|one| interface.node_ids[one]),
-        interface: Some(interface.name.clone()),
-        remark,
-        ..Suspect::default()
-    }
-    .at(interface.place(point))
-}
 
 /// The diagonal of the box around a body.
 pub(super) fn diameter(points: &[Vec3]) -> f64 {

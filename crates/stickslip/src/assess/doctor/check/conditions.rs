@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, LocationKind, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
+use super::super::places::node;
+use super::super::suspect::Suspect;
 use super::common::{forced, travel};
 use super::measured::Measured;
 use crate::assess::view::View;
@@ -30,10 +31,8 @@ pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
         && model.actions.initials.is_empty()
     {
         out.push(
-            Finding::new(
-                DoctorCause::NothingActs,
-                Severity::Warning,
-                "nothing acts: no load, no prescribed displacement, no motion of an obstacle, no overlap",
+            DoctorCause::NothingActs.warning(
+                "nothing acts: no load, no prescribed displacement, no motion of an obstacle, no overlap"
             )
             .blame(Suspect::key("step", "every step leaves the model as it is"))
             .advise("check that values are not zero and that steps list the loads and supports that act"),
@@ -57,7 +56,8 @@ fn inert(model: &Model) -> Vec<Finding> {
     let finding = |name: &String| {
         let message =
             format!("temperature {name} changes nothing: no material of its bodies expands");
-        Finding::new(DoctorCause::NothingActs, Severity::Warning, message)
+        DoctorCause::NothingActs
+            .warning(message)
             .blame(Suspect::key(format!("temperature.{name}"), ""))
             .advise("give their materials an `expansion`, the coefficient of thermal expansion")
     };
@@ -104,28 +104,12 @@ fn contradiction(
     );
     let (point, component) = model.dofs.locate(entry.dof);
     let direction = ["x", "y", "z"][component];
-    let mut finding = Finding::new(
-        DoctorCause::ContradictingSupports,
-        Severity::Warning,
-        format!(
-            "supports {first} and {second} prescribe different displacements in {direction} for one point: {was:.4e} and {value:.4e} at time {t:.4e}; \
-             the second counts"
-        ),
-    );
+    let mut finding = DoctorCause::ContradictingSupports.warning(format!(
+        "supports {first} and {second} prescribe different displacements in {direction} for one point: {was:.4e} and {value:.4e} at time {t:.4e}; \
+         the second counts"
+    ));
     if point < model.mesh.points.len() {
-        let body = model.bodies.iter().find(|b| b.points.contains(&point));
-        let name = body.map_or(String::new(), |b| b.name.clone());
-        finding = finding.blame(
-            Suspect {
-                what: LocationKind::Node,
-                id: Some(model.mesh.point_ids[point]),
-                body: Some(name.clone()),
-                name,
-                remark: format!("direction {direction}"),
-                ..Suspect::default()
-            }
-            .at(model.mesh.points[point]),
-        );
+        finding = finding.blame(node(model, point, format!("direction {direction}")));
     }
     finding
         .blame(Suspect::key(format!("support.{first}"), ""))

@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
 use super::super::surfaces::{Opposite, coordinates, spacing};
+use super::super::suspect::Suspect;
 use super::common::{median, roles, sides};
 use crate::contact::facet_point::evaluate;
 use crate::contact::interface::{InterfaceDefinition, Primary};
@@ -171,19 +171,15 @@ fn say(model: &Model, interface: &InterfaceDefinition, side: usize, coarse: f64)
     let name = &interface.name;
     let role = roles(interface)[side];
     let body = sides(model, interface)[side].clone().unwrap_or_default();
-    let finding = Finding::new(
-        DoctorCause::CoarseContact,
-        Severity::Warning,
-        format!(
-            "interface {name}: the cells of the {role} (body {body}) are {coarse:.2} of the radius between the curved surfaces; contact that is as wide as small strains allow has fewer than three of its points across"
-        ),
-    );
+    let finding = DoctorCause::CoarseContact.warning(format!(
+        "interface {name}: the cells of the {role} (body {body}) are {coarse:.2} of the radius between the curved surfaces; contact that is as wide as small strains allow has fewer than three of its points across"
+    ));
     finding
         .blame(Suspect::interface(
             name,
             format!("cells {coarse:.2} of the radius"),
         ))
-        .blame(super::super::places::body(model, &body, "coarse".into()))
+        .blame(super::super::places::body(model, &body, "coarse"))
         .advise(format!(
             "refine body {body} where it is touched: cells of a tenth of the radius are a beginning"
         ))

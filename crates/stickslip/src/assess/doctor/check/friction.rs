@@ -1,10 +1,11 @@
 //! Friction beyond what is plausible, beyond the limit of unique solutions, or without any pressure to feed it.
 
-use super::super::cause::DoctorCause;
 use super::super::coupling::local_limit;
-use super::super::finding::{Finding, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
 use super::super::friction::friction_coefficient;
-use super::common::{forced, median, secondary};
+use super::super::places::secondary;
+use super::super::suspect::Suspect;
+use super::common::{forced, median};
 use super::driven;
 use super::measured::Measured;
 use crate::assess::view::View;
@@ -34,26 +35,18 @@ pub(super) fn check(
         let limit = coupling(view, interface, measured);
         if mu > LARGE {
             out.push(
-                Finding::new(
-                    DoctorCause::LargeFriction,
-                    Severity::Warning,
-                    format!("interface {name}: the coefficient of friction is {mu:.3}; dry surfaces rarely exceed 1"),
-                )
-                .blame(Suspect::interface(name, format!("friction {mu:.3}")))
-                .blame(Suspect::key(format!("interface.{name}.friction"), ""))
-                .advise("check the coefficient: above the coupling limit of the bodies there may be several solutions, or none"),
+                DoctorCause::LargeFriction.warning(format!("interface {name}: the coefficient of friction is {mu:.3}; dry surfaces rarely exceed 1"))
+                    .blame(Suspect::interface(name, format!("friction {mu:.3}")))
+                    .blame(Suspect::key(format!("interface.{name}.friction"), ""))
+                    .advise("check the coefficient: above the coupling limit of the bodies there may be several solutions, or none"),
             );
         }
         if let Some((limit, i)) = limit.filter(|l| mu > l.0) {
             out.push(
-                Finding::new(
-                    DoctorCause::CoulombNonUniqueness,
-                    Severity::Warning,
-                    format!(
-                        "interface {name}: the coefficient of friction, {mu:.3}, is above the coupling limit of most of its points, {limit:.3}: there \
-                         may be several solutions, or none"
-                    ),
-                )
+                DoctorCause::CoulombNonUniqueness.warning(format!(
+                    "interface {name}: the coefficient of friction, {mu:.3}, is above the coupling limit of most of its points, {limit:.3}: there \
+                     may be several solutions, or none"
+                ))
                 .blame(Suspect::interface(name, format!("friction {mu:.3}")))
                 .blame(secondary(interface, i, format!("k_t / |k_tn| = {limit:.3}")))
                 .advise(format!("a coefficient of friction below {limit:.3}"))
@@ -76,17 +69,13 @@ pub(super) fn check(
             .filter(|k| k.1 > KINK)
         {
             out.push(
-                Finding::new(
-                    DoctorCause::LawTangentJump,
-                    Severity::Warning,
-                    format!("interface {name}: the slope of the normal law changes by a factor {ratio:.0} at row {row} of its table"),
-                )
-                .blame(Suspect::interface(name, "normal law with a kink"))
-                .blame(Suspect::key(
-                    format!("interface.{name}.normal.tabular.table.{row}"),
-                    format!("penetration {:.3e}", law.table[row][0]),
-                ))
-                .advise("check the units of this row, or smooth the table by more rows"),
+                DoctorCause::LawTangentJump.warning(format!("interface {name}: the slope of the normal law changes by a factor {ratio:.0} at row {row} of its table"))
+                    .blame(Suspect::interface(name, "normal law with a kink"))
+                    .blame(Suspect::key(
+                        format!("interface.{name}.normal.tabular.table.{row}"),
+                        format!("penetration {:.3e}", law.table[row][0]),
+                    ))
+                    .advise("check the units of this row, or smooth the table by more rows"),
             );
         }
     }
@@ -159,14 +148,10 @@ pub(super) fn pressureless(
         }
     }
     slid.map(|_| {
-        Finding::new(
-            DoctorCause::FrictionWithoutPressure,
-            Severity::Warning,
-            format!(
-                "interface {} has friction, but nothing presses it together: all that is prescribed moves along it",
-                interface.name
-            ),
-        )
+        DoctorCause::FrictionWithoutPressure.warning(format!(
+            "interface {} has friction, but nothing presses it together: all that is prescribed moves along it",
+            interface.name
+        ))
         .blame(Suspect::interface(&interface.name, "carries no pressure"))
         .advise("prescribe a displacement or a load along its normal, in the same step or one before")
     })
@@ -217,13 +202,9 @@ fn moved(
 
 fn too_early(interface: &InterfaceDefinition, early: &str, late: &str) -> Finding {
     let name = &interface.name;
-    Finding::new(
-        DoctorCause::FrictionWithoutPressure,
-        Severity::Warning,
-        format!(
-            "interface {name} slides in step {early}, but is pressed together only in step {late}: until then friction has no pressure and resists nothing"
-        ),
-    )
+    DoctorCause::FrictionWithoutPressure.warning(format!(
+        "interface {name} slides in step {early}, but is pressed together only in step {late}: until then friction has no pressure and resists nothing"
+    ))
     .blame(Suspect::interface(name, format!("carries no pressure in step {early}")))
     .blame(Suspect::key("step", format!("{early} before {late}")))
     .advise("press first, then slide: change the order of the steps, or their lists of supports")

@@ -1,8 +1,9 @@
 //! Gaps that cannot close, overlaps that are too deep.
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Severity, Suspect};
-use super::common::{forced_by_loads, secondary, travel};
+use super::super::finding::{DoctorCause, Finding};
+use super::super::places::secondary;
+use super::super::suspect::Suspect;
+use super::common::{forced_by_loads, travel};
 use super::driven::flight;
 use super::measured::Measured;
 use crate::assess::view::View;
@@ -40,24 +41,17 @@ pub(super) fn check(
     // What is to be done with overlaps has been said where `initial` says it.
     let meant = interface.initial.start != Start::AsMeshed;
     if smallest < -SHALLOW * size && !(meant && smallest > -DEEP * size) {
-        let severity = match smallest < -DEEP * size {
-            true => Severity::Warning,
-            false => Severity::Note,
-        };
         let overlapping = gaps.iter().filter(|(_, g)| *g < 0.0).count();
-        let mut finding = Finding::new(
-            DoctorCause::InitialOverlap,
-            severity,
-            format!(
-                "interface {}: {overlapping} points overlap at the start, by up to {:.3e}, {:.2} of the cell there",
-                interface.name,
-                -smallest,
-                -smallest / size
-            ),
-        );
-        for &(i, gap) in gaps.iter().take_while(|(_, g)| *g < -SHALLOW * size) {
-            finding = finding.blame(secondary(interface, i, format!("gap {gap:.3e}")));
-        }
+        let finding = DoctorCause::InitialOverlap.warning(format!(
+            "interface {}: {overlapping} points overlap at the start, by up to {:.3e}, {:.2} of the cell there",
+            interface.name,
+            -smallest,
+            -smallest / size
+        ))
+        .note_unless(smallest < -DEEP * size);
+        let deep = gaps.iter().take_while(|(_, g)| *g < -SHALLOW * size);
+        let finding = finding
+            .blame_all(deep.map(|&(i, gap)| secondary(interface, i, format!("gap {gap:.3e}"))));
         out.push(match interface.initial.start {
             Start::Ramp => finding
                 .advise("the fit is deeper than half a cell: take finer increments, or check the sizes of the bodies"),
@@ -72,14 +66,10 @@ pub(super) fn check(
     let reach = travel(view) + flight(model);
     if smallest > LEVER * reach && smallest > SHALLOW * size && !forced_by_loads(view) {
         out.push(
-            Finding::new(
-                DoctorCause::InitialGap,
-                Severity::Warning,
-                format!(
-                    "interface {} cannot close: its smallest gap is {smallest:.3e}, and what is prescribed, supports and velocities, moves {reach:.3e} at most",
-                    interface.name
-                ),
-            )
+            DoctorCause::InitialGap.warning(format!(
+                "interface {} cannot close: its smallest gap is {smallest:.3e}, and what is prescribed, supports and velocities, moves {reach:.3e} at most",
+                interface.name
+            ))
             .blame(secondary(interface, first, format!("gap {smallest:.3e}")))
             .blame(Suspect::interface(&interface.name, "stays open"))
             .advise("move a body by the gap (`body.NAME.translate`), or check the units of its mesh"),
@@ -120,13 +110,9 @@ fn faceted(interface: &InterfaceDefinition, gaps: &[(usize, f64)]) -> Option<Fin
     let name = &interface.name;
     let part = 100.0 * off / typical;
     Some(
-        Finding::new(
-            DoctorCause::CoarseFacets,
-            Severity::Warning,
-            format!(
-                "interface {name}: straight facets stand off the curved surfaces by {off:.2e}, {part:.0} % of the overlap at the start ({typical:.2e}): the pressure of the fit is uncertain by more than that"
-            ),
-        )
+        DoctorCause::CoarseFacets.warning(format!(
+            "interface {name}: straight facets stand off the curved surfaces by {off:.2e}, {part:.0} % of the overlap at the start ({typical:.2e}): the pressure of the fit is uncertain by more than that"
+        ))
         .blame(Suspect::interface(name, format!("overlap {typical:.2e}, facets off by {off:.2e}")))
         .advise("refine both surfaces, or use quadratic cells, until the facets are off by a twentieth of the overlap")
         .advise("divide both surfaces alike: then the facets are off by the same"),
@@ -137,18 +123,15 @@ fn nothing_opposite(interface: &InterfaceDefinition, measured: &Measured) -> Fin
     let points = measured.nearest.iter().enumerate();
     let near = points.filter_map(|(i, n)| Some((i, n.as_ref()?.distance)));
     let near = near.min_by(|a, b| a.1.total_cmp(&b.1));
-    let mut finding = Finding::new(
-        DoctorCause::NothingOpposite,
-        Severity::Warning,
-        format!(
+    let mut finding = DoctorCause::NothingOpposite
+        .warning(format!(
             "interface {}: no point of the secondary has anything opposite",
             interface.name
-        ),
-    )
-    .blame(Suspect::interface(
-        &interface.name,
-        "cannot close from here",
-    ));
+        ))
+        .blame(Suspect::interface(
+            &interface.name,
+            "cannot close from here",
+        ));
     if let Some((i, distance)) = near {
         let remark = format!("the nearest facet is {distance:.3e} away, to the side");
         finding = finding.blame(secondary(interface, i, remark));

@@ -1,8 +1,8 @@
 //! Temperatures that strain bodies too much, that jump in motion, or that count from nobody knows what.
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
 use super::super::places::body;
+use super::super::suspect::Suspect;
 use super::common::times;
 use crate::model::definition::Model;
 
@@ -44,14 +44,10 @@ pub(super) fn strained(model: &Model) -> Vec<Finding> {
         }
         let name = &owner.name;
         out.push(
-            Finding::new(
-                DoctorCause::LargeStrain,
-                Severity::Warning,
-                format!(
-                    "body {name} expands by a strain of {strain:.3e}: it is warmer by {rise:.4e} at time {t:.4e}, and its coefficient of thermal expansion is {:.3e}",
-                    strain / rise.abs()
-                ),
-            )
+            DoctorCause::LargeStrain.warning(format!(
+                "body {name} expands by a strain of {strain:.3e}: it is warmer by {rise:.4e} at time {t:.4e}, and its coefficient of thermal expansion is {:.3e}",
+                strain / rise.abs()
+            ))
             .blame(Suspect::key(format!("body.{name}.material"), "its `expansion`"))
             .blame(body(model, name, format!("strain {strain:.3e}")))
             .advise("check the unit of `expansion`: that of steel is 12e-6 per degree, not 12")
@@ -74,14 +70,10 @@ fn from_zero(model: &Model) -> Option<Finding> {
         .iter()
         .fold(0.0_f64, |m, e| if e.1.abs() > m.abs() { e.1 } else { m });
     (largest != 0.0).then(|| {
-        Finding::new(
-            DoctorCause::StartTemperature,
-            Severity::Note,
-            format!(
-                "no `initial` says how warm bodies are at the start: they are free of stress at 0, so that {largest} of temperature {} is the whole rise",
-                field.name
-            ),
-        )
+        DoctorCause::StartTemperature.note(format!(
+            "no `initial` says how warm bodies are at the start: they are free of stress at 0, so that {largest} of temperature {} is the whole rise",
+            field.name
+        ))
         .blame(Suspect::key(format!("temperature.{}", field.name), ""))
         .advise("where temperatures are not meant as rises, give the one of the start: `[initial.NAME]` with `set` and `temperature.uniform.value`, of all bodies")
     })
@@ -117,14 +109,10 @@ fn jumps(model: &Model) -> Vec<Finding> {
         };
         let name = fields.find(moved).map_or("", |f| f.name.as_str());
         out.push(
-            Finding::new(
-                DoctorCause::SuddenChange,
-                Severity::Warning,
-                format!(
-                    "temperature {name} jumps by {jump:.4e} at the start of step {}, which is dynamic: heat takes far longer than sound, and bodies that expand at once ring like bells",
-                    step.name
-                ),
-            )
+            DoctorCause::SuddenChange.warning(format!(
+                "temperature {name} jumps by {jump:.4e} at the start of step {}, which is dynamic: heat takes far longer than sound, and bodies that expand at once ring like bells",
+                step.name
+            ))
             .blame(Suspect::key(format!("temperature.{name}"), "at once"))
             .blame(Suspect::key("step", format!("step {} is dynamic", step.name)))
             .advise("heat in a quasi-static step before, or spread the rise by an `amplitude`"),

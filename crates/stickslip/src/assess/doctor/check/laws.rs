@@ -1,7 +1,7 @@
 //! Normal laws that are far softer or stiffer than the bodies, and functions that are no laws.
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
+use super::super::suspect::Suspect;
 use super::common::{diameter, median};
 use crate::contact::interface::InterfaceDefinition;
 use crate::contact::law::friction::{FrictionLaw, FrictionPoint};
@@ -57,7 +57,7 @@ fn stiffness(interface: &InterfaceDefinition, largest: f64) -> Option<Finding> {
     let name = &interface.name;
     let kind = interface.laws.normal.kind();
     let new = |message: String, remark: String| {
-        Finding::new(DoctorCause::LawOutOfRange, Severity::Warning, message)
+        DoctorCause::LawOutOfRange.warning(message)
             .blame(Suspect::interface(name, remark))
             .blame(Suspect::key(format!("interface.{name}.normal.{kind}"), ""))
             .advise("check the parameters and units of the normal law: they have to suit the moduli, in Pa and m or in MPa and mm")
@@ -92,7 +92,7 @@ fn function(interface: &InterfaceDefinition) -> Option<Finding> {
     let own = &interface.laws.user;
     let name = &interface.name;
     let new = |message: String, remark: String| {
-        Finding::new(DoctorCause::FaultyLaw, Severity::Warning, message)
+        DoctorCause::FaultyLaw.warning(message)
             .blame(Suspect::interface(name, remark))
             .advise("a normal law gives pressures from gaps, positive and falling as the gap opens; a limit of friction is positive or zero")
     };

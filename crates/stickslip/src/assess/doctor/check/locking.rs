@@ -1,8 +1,8 @@
 //! Bodies that are nearly incompressible and made of cells that lock.
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
 use super::super::places::body;
+use super::super::suspect::Suspect;
 use crate::body::{Formulation, Space};
 use crate::material::Stiffness;
 use crate::model::definition::Model;
@@ -92,14 +92,10 @@ fn finding(model: &Model, name: &str, kind: ElementKind, said: &str, poisson: f6
         }
         _ => format!("set `body.{name}.formulation = \"mean-dilatation\"` (B-bar)"),
     };
-    Finding::new(
-        DoctorCause::Locking,
-        Severity::Warning,
-        format!(
-            "body {name} is nearly incompressible (Poisson's ratio {poisson:.4}) and made of {} cells that lock: {said}",
-            kind.name()
-        ),
-    )
+    DoctorCause::Locking.warning(format!(
+        "body {name} is nearly incompressible (Poisson's ratio {poisson:.4}) and made of {} cells that lock: {said}",
+        kind.name()
+    ))
     .blame(body(model, name, format!("{} with Poisson's ratio {poisson:.4}", kind.name())))
     .blame(Suspect::key(format!("body.{name}.formulation"), ""))
     .advise(advice)

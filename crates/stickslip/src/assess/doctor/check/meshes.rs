@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, LocationKind, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
+use super::super::places::{body as whole, node};
+use super::super::suspect::Suspect;
 use super::common::{median, roles, sides};
 use super::measured::Measured;
 use crate::assess::view::View;
@@ -29,36 +30,18 @@ pub(crate) fn disconnected(model: &Model) -> Vec<Finding> {
         if pieces.len() < 2 || !body.pieces.is_empty() {
             continue;
         }
-        let mut finding = Finding::new(
-            DoctorCause::DisconnectedBody,
-            Severity::Warning,
-            format!(
+        let finding = DoctorCause::DisconnectedBody
+            .warning(format!(
                 "body {} consists of {} pieces that share no nodes, the smallest with {} nodes",
                 body.name,
                 pieces.len(),
                 small.len()
-            ),
-        )
-        .blame(super::super::places::body(
-            model,
-            &body.name,
-            "in pieces".into(),
-        ));
-        for &point in small.iter().take(4) {
-            finding = finding.blame(
-                Suspect {
-                    what: LocationKind::Node,
-                    name: body.name.clone(),
-                    id: Some(model.mesh.point_ids[point]),
-                    body: Some(body.name.clone()),
-                    remark: "of the smallest piece".into(),
-                    ..Suspect::default()
-                }
-                .at(model.mesh.points[point]),
-            );
-        }
+            ))
+            .blame(whole(model, &body.name, "in pieces"));
+        let small = small.iter().take(4);
         out.push(
             finding
+                .blame_all(small.map(|&point| node(model, point, "of the smallest piece")))
                 .advise("merge coincident nodes where the mesh was made, or make bodies of the pieces and an interface between them"),
         );
     }
@@ -140,31 +123,23 @@ pub(super) fn check(
     );
     if size < FINER {
         out.push(
-            Finding::new(
-                DoctorCause::MeshMismatch,
-                Severity::Warning,
-                format!(
-                    "interface {}: the primary (body {theirs}) is {:.1} times finer than the secondary (body {ours})",
-                    interface.name,
-                    1.0 / size
-                ),
-            )
+            DoctorCause::MeshMismatch.warning(format!(
+                "interface {}: the primary (body {theirs}) is {:.1} times finer than the secondary (body {ours})",
+                interface.name,
+                1.0 / size
+            ))
             .blame(Suspect::interface(&interface.name, format!("cells 1 : {:.1}", 1.0 / size)))
-            .blame(super::super::places::body(model, &theirs, "finer".into()))
+            .blame(whole(model, &theirs, "finer"))
             .advise(format!("{swap}: contact is checked at the secondary, which should be the finer side")),
         );
     } else if size > COARSER {
         out.push(
-            Finding::new(
-                DoctorCause::MeshMismatch,
-                Severity::Warning,
-                format!(
-                    "interface {}: the cells of the {other} (body {theirs}) are {size:.1} times as large as those of the {own} (body {ours})",
-                    interface.name
-                ),
-            )
+            DoctorCause::MeshMismatch.warning(format!(
+                "interface {}: the cells of the {other} (body {theirs}) are {size:.1} times as large as those of the {own} (body {ours})",
+                interface.name
+            ))
             .blame(Suspect::interface(&interface.name, format!("cells {size:.1} : 1")))
-            .blame(super::super::places::body(model, &theirs, "coarse".into()))
+            .blame(whole(model, &theirs, "coarse"))
             .advise(format!("refine body {theirs} where it is touched: its facets bend pressures and its cells cannot follow them")),
         );
     }
@@ -174,17 +149,13 @@ pub(super) fn check(
         && size < 1.5
     {
         out.push(
-            Finding::new(
-                DoctorCause::SofterPrimary,
-                Severity::Note,
-                format!(
-                    "interface {}: the primary (body {theirs}) is {:.0} times softer than the secondary (body {ours}) and not coarser",
-                    interface.name,
-                    1.0 / ratio
-                ),
-            )
+            DoctorCause::SofterPrimary.note(format!(
+                "interface {}: the primary (body {theirs}) is {:.0} times softer than the secondary (body {ours}) and not coarser",
+                interface.name,
+                1.0 / ratio
+            ))
             .blame(Suspect::interface(&interface.name, ""))
-            .blame(super::super::places::body(model, &theirs, "softer".into()))
+            .blame(whole(model, &theirs, "softer"))
             .advise(format!("{swap}: the stiffer side is the better primary")),
         );
     }

@@ -1,12 +1,11 @@
 //! Motions of bodies as a whole that even contact cannot hold, and gaps that a body under force has to close.
 
 use super::super::balance::unbalanced;
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Severity};
-use super::super::motions::{floating, rows};
-use super::super::places::body;
+use super::super::finding::{DoctorCause, Finding};
+use super::super::motions::{FloatingBody, floating, rows};
+use super::super::places::secondary;
 use super::super::surfaces::Opposite;
-use super::common::{forced, secondary};
+use super::common::forced;
 use super::measured::Measured;
 use crate::assess::view::View;
 use crate::contact::response::Status;
@@ -55,16 +54,11 @@ pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
     all.extend(stops.map(|row| row.terms().collect()));
     let free = floating(view, t, &all);
     if !free.is_empty() {
-        let mut finding = Finding::new(
-            DoctorCause::FreeRigidMode,
-            Severity::Warning,
-            "bodies can move as a whole: neither supports, nor springs, nor contact can hold them",
-        );
-        for l in &free {
-            finding = finding.blame(body(model, &l.body, format!("{} is free", l.motion)));
-        }
         return vec![
-            finding
+            DoctorCause::FreeRigidMode.warning(
+                "bodies can move as a whole: neither supports, nor springs, nor contact can hold them",
+            )
+            .blame_all(free.iter().map(|l| l.place(model, "is free")))
                 .advise(
                     "support these motions, or hold them by weak springs (`[load.NAME] spring`)",
                 )
@@ -92,21 +86,10 @@ pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
         return out;
     };
     let interface = &view.contact.interfaces[k];
-    let severity = match gap > interface.points[i].size {
-        true => Severity::Warning,
-        false => Severity::Note,
-    };
-    let mut finding = Finding::new(
-        DoctorCause::InitialGap,
-        severity,
-        format!("bodies that contact has to hold do not touch yet: the smallest gap is {gap:.3e}"),
-    )
-    .blame(secondary(interface, i, format!("gap {gap:.3e}")))
-    .advise("move the bodies until they touch (`body.NAME.translate`), or prescribe a displacement instead of a force");
-    for l in &waiting {
-        let remark = format!("{} is held by nothing that touches", l.motion);
-        finding = finding.blame(body(model, &l.body, remark));
-    }
-    out.push(finding);
+    let finding = DoctorCause::InitialGap.warning(format!("bodies that contact has to hold do not touch yet: the smallest gap is {gap:.3e}")).note_unless(gap > interface.points[i].size)
+        .blame(secondary(interface, i, format!("gap {gap:.3e}")))
+        .advise("move the bodies until they touch (`body.NAME.translate`), or prescribe a displacement instead of a force");
+    let held = |l: &FloatingBody| l.place(model, "is held by nothing that touches");
+    out.push(finding.blame_all(waiting.iter().map(held)));
     out
 }

@@ -1,8 +1,9 @@
 //! Surfaces that do not face each other.
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, LocationKind, Severity, Suspect};
-use super::common::{roles, secondary, sides};
+use super::super::finding::{DoctorCause, Finding};
+use super::super::places::{body as whole, secondary};
+use super::super::suspect::{LocationKind, Suspect};
+use super::common::{roles, sides};
 use super::measured::Measured;
 use crate::assess::view::View;
 use crate::contact::interface::{InterfaceDefinition, Primary};
@@ -37,19 +38,16 @@ pub(super) fn check(
             false => "stand at right angles",
         };
         let remark = format!("cosine between the outward normals {cosine:.2}; -1 is face to face");
-        let mut finding = Finding::new(
-            DoctorCause::NormalsNotOpposed,
-            Severity::Warning,
-            format!(
+        let mut finding = DoctorCause::NormalsNotOpposed
+            .warning(format!(
                 "interface {}: the {own} on body {ours} and {what} {how}: they cannot touch",
                 interface.name
-            ),
-        )
-        .blame(Suspect::interface(
-            &interface.name,
-            "its sides do not face each other",
-        ))
-        .blame(secondary(interface, i, remark));
+            ))
+            .blame(Suspect::interface(
+                &interface.name,
+                "its sides do not face each other",
+            ))
+            .blame(secondary(interface, i, remark));
         if let Primary::Facets(facets) = &interface.primary
             && let Some(facet) = facets.first()
         {
@@ -96,15 +94,11 @@ pub(super) fn through(
     }
     let name = &interface.name;
     Some(
-        Finding::new(
-            DoctorCause::NormalsNotOpposed,
-            Severity::Warning,
-            format!(
-                "interface {name}: its secondary and its primary are surfaces of the same body, {ours}, and the body lies between them: {} points look away from what lies {:.3e} behind them, and the two cannot touch",
-                behind.len(),
-                -gap
-            ),
-        )
+        DoctorCause::NormalsNotOpposed.warning(format!(
+            "interface {name}: its secondary and its primary are surfaces of the same body, {ours}, and the body lies between them: {} points look away from what lies {:.3e} behind them, and the two cannot touch",
+            behind.len(),
+            -gap
+        ))
         .blame(Suspect::interface(name, "both sides on one body"))
         .blame(secondary(interface, i, format!("the other side is {:.3e} behind it, through the body", -gap)))
         .advise("name the surface of the other body that this one meets; a body that meets itself needs two surfaces that face each other"),
@@ -126,17 +120,13 @@ fn inside_out(view: &View, interface: &InterfaceDefinition, ours: &str) -> Optio
     });
     let share = inside.count() as f64 / points.len().max(1) as f64;
     (share > INSIDE).then(|| {
-        Finding::new(
-            DoctorCause::NormalsNotOpposed,
-            Severity::Warning,
-            format!(
-                "interface {}: {:.0} % of body {ours} lies inside the obstacle: its normal points the wrong way, or the body is on the wrong side",
-                interface.name,
-                100.0 * share
-            ),
-        )
+        DoctorCause::NormalsNotOpposed.warning(format!(
+            "interface {}: {:.0} % of body {ours} lies inside the obstacle: its normal points the wrong way, or the body is on the wrong side",
+            interface.name,
+            100.0 * share
+        ))
         .blame(Suspect::interface(&interface.name, "its obstacle is inside out"))
-        .blame(super::super::places::body(model, ours, "inside the obstacle".into()))
+        .blame(whole(model, ours, "inside the obstacle"))
         .advise("turn the normal of the obstacle round (`inside` for a hole), or move the body to the other side")
     })
 }

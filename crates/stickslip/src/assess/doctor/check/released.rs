@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
 use super::super::places::body;
+use super::super::suspect::Suspect;
 use crate::assess::view::View;
 use crate::model::definition::{Body, Model, Step};
 use crate::model::rigid::held::NO_PART;
@@ -208,15 +208,11 @@ fn loaded(model: &Model, body: usize, step: &Step) -> bool {
 fn finding(model: &Model, dropped: &Dropped, step: &Step, what: &str) -> Finding {
     let Dropped { table, name, .. } = dropped;
     let of = &model.bodies[dropped.body].name;
-    Finding::new(
-        DoctorCause::LetGo,
-        Severity::Note,
-        format!(
-            "step {} leaves out {table} {name}: body {of} is no longer {what}, and nothing but contact holds it there",
-            step.name
-        ),
-    )
+    DoctorCause::LetGo.note(format!(
+        "step {} leaves out {table} {name}: body {of} is no longer {what}, and nothing but contact holds it there",
+        step.name
+    ))
     .blame(Suspect::key(format!("{table}.{name}"), format!("not in `{table}s` of step {}", step.name)))
-    .blame(body(model, of, String::new()))
+    .blame(body(model, of, ""))
     .advise(format!("if that is not meant, add \"{name}\" to `{table}s` of step {}: a step with a list has nothing else", step.name))
 }

@@ -1,8 +1,8 @@
 //! Heights of rough surfaces that contact points cannot show, or that are as steep as no surface that first order holds for.
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
 use super::super::surfaces::spacing;
+use super::super::suspect::Suspect;
 use super::common::median;
 use crate::contact::interface::InterfaceDefinition;
 use crate::math::distance;
@@ -28,13 +28,9 @@ fn aliased(model: &Model, interface: &InterfaceDefinition) -> Option<Finding> {
     let apart = median(facets.collect());
     let (name, shortest) = (&interface.name, waves.1);
     (shortest < POINTS * apart).then(|| {
-        Finding::new(
-            DoctorCause::UnresolvedRoughness,
-            Severity::Warning,
-            format!(
-                "interface {name}: the shortest wave of its roughness is {shortest:.3e} long and its points are {apart:.3e} apart: what they show is another surface, with longer waves or none"
-            ),
-        )
+        DoctorCause::UnresolvedRoughness.warning(format!(
+            "interface {name}: the shortest wave of its roughness is {shortest:.3e} long and its points are {apart:.3e} apart: what they show is another surface, with longer waves or none"
+        ))
         .blame(Suspect::key(format!("interface.{name}.roughness"), format!("waves of {shortest:.3e}")))
         .blame(Suspect::interface(name, format!("points {apart:.3e} apart")))
         .advise(format!(
@@ -69,13 +65,9 @@ fn steep(interface: &InterfaceDefinition) -> Option<Finding> {
     let strain = slope * std::f64::consts::FRAC_1_SQRT_2;
     let name = &interface.name;
     (strain > LARGE && strain.is_finite()).then(|| {
-        Finding::new(
-            DoctorCause::LargeStrain,
-            Severity::Warning,
-            format!(
-                "interface {name}: its roughness has a slope of {slope:.2} in the root mean square between points: to press it flat takes strains of about {strain:.2}, and heights change gaps to first order"
-            ),
-        )
+        DoctorCause::LargeStrain.warning(format!(
+            "interface {name}: its roughness has a slope of {slope:.2} in the root mean square between points: to press it flat takes strains of about {strain:.2}, and heights change gaps to first order"
+        ))
         .blame(Suspect::key(format!("interface.{name}.roughness"), format!("slope {slope:.2}")))
         .blame(Suspect::interface(name, ""))
         .advise("check the unit of the heights: roughness is micrometres, in a model in metres 1e-6")

@@ -1,10 +1,10 @@
 //! What acts when: factors that jump, tables of which the analysis sees a part, and what never acts at all.
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
+use super::super::suspect::Suspect;
 use crate::model::definition::Model;
 use crate::model::scene::Scene;
-use crate::system::{Course, Schedule};
+use crate::system::{Amplitude, Course, Schedule};
 
 /// Part of a step in which a factor may not change by half its range.
 const SHORT: f64 = 1e-3;
@@ -26,49 +26,47 @@ struct Acting<'a> {
     scaled: bool,
 }
 
+impl<'a> Acting<'a> {
+    /// Its first table.
+    fn table(&self) -> Option<&'a Amplitude> {
+        self.schedule.pieces.iter().find_map(|p| match &p.course {
+            Course::Table(table) => Some(table),
+            _ => None,
+        })
+    }
+
+    /// Its amplitude as a place.
+    fn amplitude(&self, remark: impl Into<String>) -> Suspect {
+        Suspect::key(format!("{}.{}.amplitude", self.what, self.name), remark)
+    }
+}
+
 fn all<'a>(scene: &Scene<'a>) -> Vec<Acting<'a>> {
-    let model = scene.model;
+    let actions = &scene.model.actions;
     let mut all = Vec::new();
-    for load in &model.actions.loads {
+    let mut add = |what, name: &'a str, schedule: &'a Schedule, counts| {
         all.push(Acting {
-            what: "load",
-            name: &load.name,
-            schedule: &load.schedule,
-            counts: load.entries.iter().any(|e| e.1 != 0.0),
-            scaled: true,
+            what,
+            name,
+            schedule,
+            counts,
+            scaled: what != "interface",
         });
+    };
+    for load in &actions.loads {
+        let counts = load.entries.iter().any(|e| e.1 != 0.0);
+        add("load", &load.name, &load.schedule, counts);
     }
-    for support in &model.actions.supports {
-        all.push(Acting {
-            what: "support",
-            name: &support.name,
-            schedule: &support.schedule,
-            counts: support.entries.iter().any(|e| !e.hold && e.value != 0.0),
-            scaled: true,
-        });
+    for support in &actions.supports {
+        let counts = support.entries.iter().any(|e| !e.hold && e.value != 0.0);
+        add("support", &support.name, &support.schedule, counts);
     }
-    for field in model
-        .actions
-        .heat
-        .iter()
-        .flat_map(|h| &h.temperatures.fields)
-    {
-        all.push(Acting {
-            what: "temperature",
-            name: &field.name,
-            schedule: &field.factor,
-            counts: field.entries.iter().any(|e| e.1 != 0.0),
-            scaled: true,
-        });
+    for field in actions.heat.iter().flat_map(|h| &h.temperatures.fields) {
+        let counts = field.entries.iter().any(|e| e.1 != 0.0);
+        add("temperature", &field.name, &field.factor, counts);
     }
     for interface in &scene.contact.interfaces {
-        all.push(Acting {
-            what: "interface",
-            name: &interface.name,
-            schedule: &interface.schedule,
-            counts: true,
-            scaled: false,
-        });
+        add("interface", &interface.name, &interface.schedule, true);
     }
     all
 }
@@ -95,7 +93,7 @@ pub(super) fn check(scene: &Scene) -> Vec<Finding> {
 fn never(model: &Model, acting: &Acting) -> Option<Finding> {
     let Acting { what, name, .. } = acting;
     let key = format!("{what}.{name}");
-    let new = |message| Finding::new(DoctorCause::NothingActs, Severity::Warning, message);
+    let new = |message| DoctorCause::NothingActs.warning(message);
     if model.steps.iter().all(|s| !acting.schedule.active(s.end)) {
         let found = new(format!("{what} {name} acts in no step"))
             .blame(Suspect::key(key, "listed in no step"));
@@ -108,7 +106,7 @@ fn never(model: &Model, acting: &Acting) -> Option<Finding> {
         new(format!(
             "{what} {name} is zero throughout: its amplitude is zero at all times up to the end of the analysis, {end}"
         ))
-        .blame(Suspect::key(format!("{key}.amplitude"), ""))
+        .blame(acting.amplitude(""))
         .advise("check the times of the amplitude: they count from the start of the analysis")
     })
 }
@@ -116,15 +114,7 @@ fn never(model: &Model, acting: &Acting) -> Option<Finding> {
 /// A table whose largest value lies beyond the end of the analysis.
 fn unreached(model: &Model, acting: &Acting) -> Option<Finding> {
     let end = model.steps.last().map_or(0.0, |s| s.end);
-    let tables = acting
-        .schedule
-        .pieces
-        .iter()
-        .filter_map(|p| match &p.course {
-            Course::Table(table) => Some(table),
-            _ => None,
-        });
-    let rows = tables.into_iter().next()?.rows();
+    let rows = acting.table()?.rows();
     let largest = |inside: bool| {
         let rows = rows
             .iter()
@@ -142,15 +132,11 @@ fn unreached(model: &Model, acting: &Acting) -> Option<Finding> {
     let last = rows.last().map_or(end, |r| r[0]);
     let Acting { what, name, .. } = acting;
     Some(
-        Finding::new(
-            DoctorCause::AmplitudeUnused,
-            Severity::Warning,
-            format!(
-                "the amplitude of {what} {name} goes on to time {last}, the analysis ends at {end}: only {:.3} of its largest value, {all}, is reached",
-                seen / all
-            ),
-        )
-        .blame(Suspect::key(format!("{what}.{name}.amplitude"), ""))
+        DoctorCause::AmplitudeUnused.warning(format!(
+            "the amplitude of {what} {name} goes on to time {last}, the analysis ends at {end}: only {:.3} of its largest value, {all}, is reached",
+            seen / all
+        ))
+        .blame(acting.amplitude(""))
         .blame(Suspect::key("step", format!("ends at {end}")))
         .advise("make the steps as long as the amplitude, or scale its times"),
     )
@@ -159,12 +145,7 @@ fn unreached(model: &Model, acting: &Acting) -> Option<Finding> {
 /// A table that goes on to change behind the end of the analysis, or of the one cycle that it tells of.
 fn unread(model: &Model, acting: &Acting) -> Option<Finding> {
     let end = model.steps.last().map_or(0.0, |s| s.end);
-    let pieces = acting.schedule.pieces.iter();
-    let mut tables = pieces.filter_map(|p| match &p.course {
-        Course::Table(table) => Some(table),
-        _ => None,
-    });
-    let table = tables.next()?;
+    let table = acting.table()?;
     let (rows, last) = (table.rows(), table.at(end));
     let largest = rows.iter().fold(0.0_f64, |m, r| m.max(r[1].abs()));
     let beyond = rows.iter().filter(|r| r[0] > end * (1.0 + 1e-9));
@@ -179,9 +160,8 @@ fn unread(model: &Model, acting: &Acting) -> Option<Finding> {
     let first = beyond[0][0] - (end - told);
     let Acting { what, name, .. } = acting;
     let repeated = (model.steps.iter()).find(|s| s.cycles.is_some_and(|c| c.count > 1));
-    let (severity, message, advice) = match repeated.and_then(|s| Some((s, s.cycles?))) {
+    let (message, advice) = match repeated.and_then(|s| Some((s, s.cycles?))) {
         Some((step, cycles)) => (
-            Severity::Warning,
             format!(
                 "the amplitude of {what} {name} has {} rows that nobody reads, the first at {first}: the steps end at {told} in its time, in which step {} with its {} cycles is one cycle of {}",
                 beyond.len(),
@@ -192,7 +172,6 @@ fn unread(model: &Model, acting: &Acting) -> Option<Finding> {
             "let the table tell of one cycle and no more, or make the `duration` of the step, which is that of one cycle, as long as what the table tells",
         ),
         None => (
-            Severity::Note,
             format!(
                 "the amplitude of {what} {name} has {} rows that nobody reads, the first at {first}: the analysis ends at {told}",
                 beyond.len()
@@ -201,11 +180,10 @@ fn unread(model: &Model, acting: &Acting) -> Option<Finding> {
         ),
     };
     Some(
-        Finding::new(DoctorCause::AmplitudeUnused, severity, message)
-            .blame(Suspect::key(
-                format!("{what}.{name}.amplitude"),
-                format!("rows from {first} on"),
-            ))
+        DoctorCause::AmplitudeUnused
+            .warning(message)
+            .note_unless(repeated.is_some())
+            .blame(acting.amplitude(format!("rows from {first} on")))
             .advise(advice),
     )
 }
@@ -241,22 +219,15 @@ fn jump(scene: &Scene, acting: &Acting) -> Option<Finding> {
         let Some(w) = jumps else {
             continue;
         };
-        let severity = match rubs {
-            true => Severity::Warning,
-            false => Severity::Note,
-        };
         let Acting { what, name, .. } = acting;
         return Some(
-            Finding::new(
-                DoctorCause::SuddenChange,
-                severity,
-                format!(
-                    "the amplitude of {what} {name} jumps from {} to {} at time {:.4e}: one increment takes all of it, however small increments are, and \
-                     friction depends on the way there",
-                    w[0][1], w[1][1], w[1][0]
-                ),
-            )
-            .blame(Suspect::key(format!("{what}.{name}.amplitude"), format!("time {:.4e}", w[1][0])))
+            DoctorCause::SuddenChange.warning(format!(
+                "the amplitude of {what} {name} jumps from {} to {} at time {:.4e}: one increment takes all of it, however small increments are, and \
+                 friction depends on the way there",
+                w[0][1], w[1][1], w[1][0]
+            ))
+            .note_unless(rubs)
+            .blame(acting.amplitude(format!("time {:.4e}", w[1][0])))
             .advise("spread the change over a part of the step, or make the step dynamic"),
         );
     }
@@ -277,15 +248,11 @@ fn ended(model: &Model, acting: &Acting) -> Option<Finding> {
     })?;
     let Acting { what, name, .. } = acting;
     Some(
-        Finding::new(
-            DoctorCause::AmplitudeUnused,
-            Severity::Note,
-            format!(
-                "the amplitude of {what} {name} ends at time {}, a dynamic step at {end}: its last value, {}, is held",
-                last[0], last[1]
-            ),
-        )
-        .blame(Suspect::key(format!("{what}.{name}.amplitude"), ""))
+        DoctorCause::AmplitudeUnused.note(format!(
+            "the amplitude of {what} {name} ends at time {}, a dynamic step at {end}: its last value, {}, is held",
+            last[0], last[1]
+        ))
+        .blame(acting.amplitude(""))
         .advise("add a row where it should fall to zero"),
     )
 }

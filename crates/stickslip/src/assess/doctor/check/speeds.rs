@@ -1,8 +1,8 @@
 //! Motions that are too fast for the bodies, or lead away from contact.
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
 use super::super::places::body;
+use super::super::suspect::Suspect;
 use super::common::forced_by_loads;
 use super::driven::{approach, thrown};
 use super::measured::Measured;
@@ -38,17 +38,13 @@ pub(super) fn fast(scene: &Scene) -> Vec<Finding> {
     let mut judge = |what: &str, name: &str, speed: f64| {
         if speed > FAST * sound {
             out.push(
-                Finding::new(
-                    DoctorCause::TooFast,
-                    Severity::Warning,
-                    format!(
-                        "{what} {name} moves at {speed:.4e}, {:.3} times the speed of sound of body {}, {sound:.4e}: an impact at that speed strains it by \
-                         {:.2}, and strains have to be small",
-                        speed / sound,
-                        slowest.name,
-                        0.5 * speed / sound
-                    ),
-                )
+                DoctorCause::TooFast.warning(format!(
+                    "{what} {name} moves at {speed:.4e}, {:.3} times the speed of sound of body {}, {sound:.4e}: an impact at that speed strains it by \
+                     {:.2}, and strains have to be small",
+                    speed / sound,
+                    slowest.name,
+                    0.5 * speed / sound
+                ))
                 .blame(Suspect::key(format!("{what}.{name}"), format!("velocity {speed:.4e}")))
                 .blame(body(model, &slowest.name, format!("speed of sound {sound:.4e}")))
                 .advise("check the units of velocity, of time, of modulus and of density"),
@@ -156,20 +152,16 @@ pub(super) fn apart(
         Some(body) => format!("body {} flies away from it", body.name),
         None => "what is prescribed pulls its sides apart".to_string(),
     };
-    let finding = Finding::new(
-        DoctorCause::MovesApart,
-        Severity::Warning,
-        format!(
+    let finding = DoctorCause::MovesApart
+        .warning(format!(
             "interface {} never closes: {who}, by {:.3e}, and nothing brings it back",
             interface.name, -way.least
-        ),
-    )
-    .blame(Suspect::interface(
-        &interface.name,
-        format!("gap {gap:.3e} at the start"),
-    ));
-    let finding = sides.iter().flatten().fold(finding, |f, &b| {
-        f.blame(body(model, &model.bodies[b].name, String::new()))
-    });
-    Some(finding.advise("check the sign of the displacement or velocity along the normal, and on which side the bodies are"))
+        ))
+        .blame(Suspect::interface(
+            &interface.name,
+            format!("gap {gap:.3e} at the start"),
+        ));
+    let sides = sides.iter().flatten();
+    let sides = sides.map(|&b| body(model, &model.bodies[b].name, ""));
+    Some(finding.blame_all(sides).advise("check the sign of the displacement or velocity along the normal, and on which side the bodies are"))
 }

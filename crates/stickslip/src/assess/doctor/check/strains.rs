@@ -1,8 +1,8 @@
 //! Displacements and loads that strain bodies more than small strains allow.
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Severity, Suspect};
-use super::super::places::{body, bounds};
+use super::super::finding::{DoctorCause, Finding};
+use super::super::places::{body as whole, bounds};
+use super::super::suspect::Suspect;
 use super::driven::{apart, approach, pair};
 use super::measured::Measured;
 use crate::body::Space;
@@ -15,7 +15,7 @@ use crate::model::scene::Scene;
 const LARGE: f64 = 0.2;
 
 fn finding(message: String) -> Finding {
-    Finding::new(DoctorCause::LargeStrain, Severity::Warning, message)
+    DoctorCause::LargeStrain.warning(message)
         .advise("check the value and its units: bodies are linear, with small strains, and results beyond are not to be trusted")
 }
 
@@ -67,7 +67,7 @@ fn pulled(model: &Model, body: &Body) -> Option<Finding> {
                             ["x", "y", "z"][*c],
                             strain * length
                         ))
-                        .blame(super::super::places::body(model, &body.name, format!("strain {strain:.2}")))
+                        .blame(whole(model, &body.name, format!("strain {strain:.2}")))
                         .blame(Suspect::key(format!("support.{first}"), ""))
                         .blame(Suspect::key(format!("support.{second}"), "")),
                     );
@@ -116,7 +116,7 @@ fn loaded(model: &Model, body: &Body) -> Option<Finding> {
                         force.abs(),
                         section(c)
                     ))
-                    .blame(super::super::places::body(model, &body.name, format!("strain {strain:.2}")))
+                    .blame(whole(model, &body.name, format!("strain {strain:.2}")))
                     .blame(Suspect::key(format!("load.{}", load.name), "")),
                 );
             }
@@ -160,7 +160,6 @@ pub(super) fn pressed(
         interface.name
     ))
     .blame(Suspect::interface(&interface.name, format!("pressed by {depth:.3e}")));
-    Some(elastic.iter().fold(found, |f, b| {
-        f.blame(body(model, &b.name, format!("strain about {strain:.2}")))
-    }))
+    let strained = |b: &&Body| whole(model, &b.name, format!("strain about {strain:.2}"));
+    Some(found.blame_all(elastic.iter().map(strained)))
 }

@@ -2,8 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, LocationKind, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
+use super::super::places;
+use super::super::suspect::Suspect;
 use super::common::{roles, sides};
 use crate::body::couplings::Row;
 use crate::contact::facet_point::evaluate;
@@ -11,6 +12,7 @@ use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::math::Vec3;
 use crate::model::definition::{Body, Model};
 use crate::model::scene::Scene;
+use crate::system::Schedule;
 
 /// Part of the points of a surface that is most of it.
 const MOST: f64 = 0.5;
@@ -96,28 +98,20 @@ fn held(model: &Model, interface: &InterfaceDefinition, surface: &Surface) -> Op
         let elsewhere = held
             .iter()
             .any(|(p, _)| beyond.contains(p) && !on.contains(p));
-        let both = model
-            .steps
-            .iter()
-            .any(|s| support.schedule.active(s.end) && interface.schedule.active(s.end));
-        if elsewhere || !both {
+        if elsewhere || !together(model, &support.schedule, &interface.schedule) {
             continue;
         }
         let (name, ours) = (&interface.name, &surface.body.name);
         let node = surface.points.iter().find(along).map(|p| p.0);
-        let finding = Finding::new(
-            DoctorCause::SupportOnContact,
-            Severity::Warning,
-            format!(
-                "support {} holds the {} of interface {name} itself, on body {ours}: contact there moves nothing, and the body behind it feels nothing",
-                support.name, surface.side
-            ),
-        )
+        let finding = DoctorCause::SupportOnContact.warning(format!(
+            "support {} holds the {} of interface {name} itself, on body {ours}: contact there moves nothing, and the body behind it feels nothing",
+            support.name, surface.side
+        ))
         .blame(Suspect::key(format!("support.{}.set", support.name), format!("{count} of {} points of the surface", surface.points.len())))
         .blame(Suspect::interface(name, format!("its {}", surface.side)));
         return Some(
-            node.into_iter()
-                .fold(finding, |f, p| f.blame(point(model, surface.body, p)))
+            finding
+                .blame_all(node.map(|p| places::node(model, p, "")))
                 .advise("support the body where it is held in truth, away from the contact, or make it `rigid = true`"),
         );
     }
@@ -142,22 +136,16 @@ fn stiffened(scene: &Scene, interface: &InterfaceDefinition, surface: &Surface) 
         let beyond = surface.body.points.clone();
         // A body that is led everywhere stands for a rigid one.
         let elsewhere = led.iter().any(|p| beyond.contains(p) && !on.contains(p));
-        let mut steps = model.steps.iter();
-        let both =
-            steps.any(|s| coupling.schedule.active(s.end) && interface.schedule.active(s.end));
+        let both = together(model, &coupling.schedule, &interface.schedule);
         if (count as f64) <= MOST * on.len() as f64 || elsewhere || !both {
             continue;
         }
         let (name, ours) = (&interface.name, &surface.body.name);
         return Some(
-            Finding::new(
-                DoctorCause::SupportOnContact,
-                Severity::Warning,
-                format!(
-                    "coupling {} makes the {} of interface {name} itself rigid, on body {ours}: contact there cannot shape it, and pressures are those of a rigid face",
-                    coupling.name, surface.side
-                ),
-            )
+            DoctorCause::SupportOnContact.warning(format!(
+                "coupling {} makes the {} of interface {name} itself rigid, on body {ours}: contact there cannot shape it, and pressures are those of a rigid face",
+                coupling.name, surface.side
+            ))
             .blame(Suspect::key(format!("coupling.{}", coupling.name), format!("{count} of {} points of the surface", on.len())))
             .blame(Suspect::interface(name, format!("its {}", surface.side)))
             .advise("let the reference point lead the face where the body is held in truth, away from the contact, or make the body `rigid = true`"),
@@ -184,20 +172,21 @@ fn loaded(model: &Model, interface: &InterfaceDefinition, surface: &Surface) -> 
         }
         let (name, ours) = (&interface.name, &surface.body.name);
         return Some(
-            Finding::new(
-                DoctorCause::LoadOnContact,
-                Severity::Warning,
-                format!(
-                    "load {} acts on the {} of interface {name} itself, on body {ours}: it pushes on the surface that contact pushes on",
-                    load.name, surface.side
-                ),
-            )
+            DoctorCause::LoadOnContact.warning(format!(
+                "load {} acts on the {} of interface {name} itself, on body {ours}: it pushes on the surface that contact pushes on",
+                load.name, surface.side
+            ))
             .blame(Suspect::key(format!("load.{}.set", load.name), format!("{inside} points of the surface")))
             .blame(Suspect::interface(name, format!("its {}", surface.side)))
             .advise("load the surface that the force comes from; the force of contact follows from balance"),
         );
     }
     None
+}
+
+/// Whether two things act at the end of a step.
+fn together(model: &Model, a: &Schedule, b: &Schedule) -> bool {
+    (model.steps.iter()).any(|s| a.active(s.end) && b.active(s.end))
 }
 
 /// Two interfaces between the same surfaces that act at the same time.
@@ -210,10 +199,6 @@ pub(crate) fn doubled(scene: &Scene) -> Option<Finding> {
             if first.name == second.name || first.share < 1.0 || second.share < 1.0 {
                 continue;
             }
-            let together = model
-                .steps
-                .iter()
-                .any(|s| first.schedule.active(s.end) && second.schedule.active(s.end));
             let common = |x: usize, y: usize| {
                 let both = sets[a][x].intersection(&sets[b][y]).count();
                 both as f64 > MOST * sets[a][x].len().min(sets[b][y].len()) as f64 && both > 0
@@ -225,7 +210,7 @@ pub(crate) fn doubled(scene: &Scene) -> Option<Finding> {
                 }
                 _ => false,
             };
-            if together && opposite {
+            if opposite && together(model, &first.schedule, &second.schedule) {
                 return Some(twice(first, second));
             }
         }
@@ -234,14 +219,10 @@ pub(crate) fn doubled(scene: &Scene) -> Option<Finding> {
 }
 
 fn twice(first: &InterfaceDefinition, second: &InterfaceDefinition) -> Finding {
-    Finding::new(
-        DoctorCause::DoubledInterface,
-        Severity::Warning,
-        format!(
-            "interfaces {} and {} join the same surfaces at the same time: each closes the gap for itself, and friction counts twice",
-            first.name, second.name
-        ),
-    )
+    DoctorCause::DoubledInterface.warning(format!(
+        "interfaces {} and {} join the same surfaces at the same time: each closes the gap for itself, and friction counts twice",
+        first.name, second.name
+    ))
     .blame(Suspect::interface(&first.name, ""))
     .blame(Suspect::interface(&second.name, "the same surfaces"))
     .advise("remove one of the two, or list them in different steps (`step.interfaces`); `step.change` changes the laws of one interface")
@@ -255,15 +236,4 @@ fn nodes(interface: &InterfaceDefinition) -> [BTreeSet<usize>; 2] {
         secondary.map(|&n| interface.nodes[n]).collect(),
         primary.copied().collect(),
     ]
-}
-
-fn point(model: &Model, body: &Body, point: usize) -> Suspect {
-    Suspect {
-        what: LocationKind::Node,
-        name: body.name.clone(),
-        id: Some(model.mesh.point_ids[point]),
-        body: Some(body.name.clone()),
-        ..Suspect::default()
-    }
-    .at(model.mesh.points[point])
 }

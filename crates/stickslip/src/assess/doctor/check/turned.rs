@@ -1,7 +1,8 @@
 //! Rotations that supports prescribe and that are too far for small ones.
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
+use super::super::places::body;
+use super::super::suspect::Suspect;
 use super::common::{median, times};
 use super::driven::pair;
 use super::measured::Measured;
@@ -207,26 +208,20 @@ fn finding(scene: &Scene, turn: &Turn, missed: Option<(&str, [f64; 2])>) -> Find
             missed / room
         ),
     };
-    let mut found = Finding::new(
-        DoctorCause::LargeRotation,
-        Severity::Warning,
-        format!(
+    let mut found = DoctorCause::LargeRotation
+        .warning(format!(
             "support {} turns {}{whose} by {angle:.3} rad, {said}",
             turn.support, turn.what
-        ),
-    )
-    .blame(Suspect::key(
-        format!("support.{}", turn.support),
-        format!("{angle:.3} rad"),
-    ));
+        ))
+        .blame(Suspect::key(
+            format!("support.{}", turn.support),
+            format!("{angle:.3} rad"),
+        ));
     if let Some((interface, _)) = missed {
         found = found.blame(Suspect::interface(interface, "turned by a small rotation"));
     }
-    for &b in &turn.bodies {
-        let name = &model.bodies[b].name;
-        let place = super::super::places::body(model, name, format!("turned by {angle:.3} rad"));
-        found = found.blame(place);
-    }
+    let remark = format!("turned by {angle:.3} rad");
+    found = found.blame_all(names.iter().map(|name| body(model, name, &*remark)));
     match turn.bodies.first().map(|&b| &model.bodies[b]) {
         Some(body) if body.rigid.is_some() && body.name == turn.what => found.advise(format!(
             "`body.{0}.rotation.with` of a reference point that the support turns in its place",

@@ -1,9 +1,9 @@
 //! Bodies that stand on a curved surface as a ball stands on a ball, with nothing beside it.
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
 use super::super::places::body;
 use super::super::surfaces::Opposite;
+use super::super::suspect::Suspect;
 use super::curved::rest;
 use super::driven::{meets_others, pair};
 use crate::assess::view::View;
@@ -66,16 +66,12 @@ pub(super) fn check(view: &View, interface: &InterfaceDefinition) -> Option<Find
         }
         let name = &interface.name;
         return Some(
-            Finding::new(
-                DoctorCause::FreeRigidMode,
-                Severity::Warning,
-                format!(
-                    "interface {name}: nothing guides body {}, which stands like a ball on a ball: the loads press at a height of {height:.3e} above the contact, more than the radius of {:.3e} between the surfaces, and at the slightest push it rolls off",
-                    owner.name,
-                    1.0 / curvature
-                ),
-            )
-            .blame(body(model, &owner.name, "held beside its contact by nothing".into()))
+            DoctorCause::FreeRigidMode.warning(format!(
+                "interface {name}: nothing guides body {}, which stands like a ball on a ball: the loads press at a height of {height:.3e} above the contact, more than the radius of {:.3e} between the surfaces, and at the slightest push it rolls off",
+                owner.name,
+                1.0 / curvature
+            ))
+            .blame(body(model, &owner.name, "held beside its contact by nothing"))
             .blame(Suspect::interface(name, "the only thing that holds it"))
             .advise("support its motion along the contact where it is guided in truth: `[support.NAME]` of the points that are loaded, across the load"),
         );

@@ -3,8 +3,9 @@
 //! Three consistent systems are common: m, N, Pa, kg; mm, N, MPa, t; in, lbf, psi, lbf s²/in. In each of them the moduli of solids and the speed of
 //! sound in them lie in known ranges; what lies in none, or makes two bodies differ by the factor between units, is reported.
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
+use super::super::places::body;
+use super::super::suspect::Suspect;
 use super::common::diameter;
 use crate::body::Space;
 use crate::model::Body;
@@ -113,7 +114,7 @@ fn numbers(model: &Model) -> Vec<Numbers<'_>> {
 }
 
 fn finding(message: String) -> Finding {
-    Finding::new(DoctorCause::MixedUnits, Severity::Warning, message)
+    DoctorCause::MixedUnits.warning(message)
         .advise("use one system throughout: m, N, Pa, kg/m³, or mm, N, MPa, t/mm³ (`body.NAME.scale` converts a mesh)")
 }
 
@@ -135,27 +136,9 @@ fn moduli(model: &Model, all: &[Numbers]) -> Option<Finding> {
         let ratio = hard.density / soft.density;
         ratio.max(1.0 / ratio) < ALIKE
     };
-    let doubtful = factor < 1e4 && !alike;
-    Some(
-        Finding {
-            severity: if doubtful {
-                Severity::Note
-            } else {
-                Severity::Warning
-            },
-            ..told
-        }
-        .blame(super::super::places::body(
-            model,
-            &soft.body.name,
-            remark(soft),
-        ))
-        .blame(super::super::places::body(
-            model,
-            &hard.body.name,
-            remark(hard),
-        )),
-    )
+    let place = |n: &Numbers| body(model, &n.body.name, remark(n));
+    let told = told.note_unless(factor >= 1e4 || alike);
+    Some(told.blame_all([soft, hard].map(place)))
 }
 
 /// Two bodies whose densities differ by the ratio of two units.
@@ -172,8 +155,8 @@ fn densities(model: &Model, all: &[Numbers]) -> Option<Finding> {
             "the densities of bodies {} and {} differ by a factor {ratio:.3e}, near the ratio {factor:.0e} of two units",
             heavy.body.name, light.body.name
         ))
-        .blame(super::super::places::body(model, &heavy.body.name, remark(heavy)))
-        .blame(super::super::places::body(model, &light.body.name, remark(light))),
+        .blame(body(model, &heavy.body.name, remark(heavy)))
+        .blame(body(model, &light.body.name, remark(light))),
     )
 }
 
@@ -207,8 +190,8 @@ fn sizes(model: &Model, all: &[Numbers]) -> Option<Finding> {
             "body {} is {ratio:.0} times as large as body {}: is one mesh in millimetres and the other in metres?",
             large.body.name, small.body.name
         ))
-        .blame(super::super::places::body(model, &small.body.name, remark(small)))
-        .blame(super::super::places::body(model, &large.body.name, remark(large))),
+        .blame(body(model, &small.body.name, remark(small)))
+        .blame(body(model, &large.body.name, remark(large))),
     )
 }
 
@@ -219,7 +202,7 @@ fn alone(model: &Model, n: &Numbers, heavy: bool) -> Option<Finding> {
     let plausible = |[stress, _]: &[f64; 2]| within(stress * n.modulus, MODULI);
     let (si, mm) = (plausible(&SYSTEMS[0]), plausible(&SYSTEMS[1]));
     let blame = |f: Finding, remark: String| {
-        f.blame(super::super::places::body(model, name, remark))
+        f.blame(body(model, name, remark))
             .blame(Suspect::key(format!("body.{name}.material"), ""))
     };
     if !SYSTEMS.iter().any(plausible) {

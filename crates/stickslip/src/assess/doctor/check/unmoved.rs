@@ -1,7 +1,7 @@
 //! Velocities given to points that have no mass.
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
+use super::super::suspect::Suspect;
 use crate::model::definition::Initial;
 use crate::model::scene::Scene;
 use crate::solve::inertia::light;
@@ -31,14 +31,10 @@ fn massless(scene: &Scene, initial: &Initial) -> Option<Finding> {
     }
     let name = &initial.name;
     Some(
-        Finding::new(
-            DoctorCause::NothingActs,
-            Severity::Warning,
-            format!(
-                "initial {name} gives velocities to nothing but points of contact, and step {} has given their mass to their neighbours: nothing is set in motion",
-                step.name
-            ),
-        )
+        DoctorCause::NothingActs.warning(format!(
+            "initial {name} gives velocities to nothing but points of contact, and step {} has given their mass to their neighbours: nothing is set in motion",
+            step.name
+        ))
         .blame(Suspect::key(format!("initial.{name}.set"), "points without mass"))
         .advise("give the velocity to the whole body, or to points behind its surface")
         .advise("keep the mass where it is (`dynamic.contact-mass = \"as-meshed\"`)"),

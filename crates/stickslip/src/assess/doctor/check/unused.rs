@@ -1,7 +1,7 @@
 //! Tables of the problem file that nothing uses.
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
+use super::super::suspect::Suspect;
 use crate::model::definition::Model;
 
 pub(super) fn check(model: &Model) -> Option<Finding> {
@@ -10,19 +10,13 @@ pub(super) fn check(model: &Model) -> Option<Finding> {
         return None;
     }
     // What nothing can touch lets bodies through.
-    let severity = match unused.iter().any(|key| key.starts_with("obstacle.")) {
-        true => Severity::Warning,
-        false => Severity::Note,
-    };
     let tables = match unused.len() {
         1 => "a table that nothing uses".to_string(),
         n => format!("{n} tables that nothing uses"),
     };
-    let finding = Finding::new(
-        DoctorCause::Unused,
-        severity,
-        format!("the problem has {tables}: {}", unused.join(", ")),
-    );
+    let finding = DoctorCause::Unused
+        .warning(format!("the problem has {tables}: {}", unused.join(", ")))
+        .note_unless(unused.iter().any(|key| key.starts_with("obstacle.")));
     let finding = unused.iter().fold(finding, |f, key| {
         let remark = match key.split('.').next() {
             Some("obstacle") => "no interface has it as `primary`: bodies pass through it",

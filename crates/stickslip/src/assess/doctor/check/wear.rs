@@ -1,8 +1,8 @@
 //! Wear that is faster than any, and wear that is explicit, which is stable below a length of increments only.
 
-use super::super::cause::DoctorCause;
-use super::super::finding::{Finding, Severity, Suspect};
+use super::super::finding::{DoctorCause, Finding};
 use super::super::friction::friction_coefficient;
+use super::super::suspect::Suspect;
 use super::common::{roles, sides};
 use crate::assess::view::View;
 use crate::contact::interface::{InterfaceDefinition, Primary};
@@ -41,15 +41,11 @@ fn too_fast(model: &Model, interface: &InterfaceDefinition) -> Option<Finding> {
         let part = rate * young / SOFTEST;
         (part > 1.0 && part.is_finite()).then(|| {
             let kind = interface.laws.wear.kind();
-            Finding::new(
-                DoctorCause::LawOutOfRange,
-                Severity::Warning,
-                format!(
-                    "interface {}: its {side}, body {name}, wears by {rate:.3e} of depth over pressure and path. Times its hardness that is Archard's dimensionless coefficient, which is a probability: with a modulus of {young:.3e} the rate of no surface is above {:.3e}",
-                    interface.name,
-                    SOFTEST / young
-                ),
-            )
+            DoctorCause::LawOutOfRange.warning(format!(
+                "interface {}: its {side}, body {name}, wears by {rate:.3e} of depth over pressure and path. Times its hardness that is Archard's dimensionless coefficient, which is a probability: with a modulus of {young:.3e} the rate of no surface is above {:.3e}",
+                interface.name,
+                SOFTEST / young
+            ))
             .blame(Suspect::key(format!("interface.{}.wear.{kind}", interface.name), format!("{rate:.3e}")))
             .blame(super::super::places::body(model, &name, format!("modulus {young:.3e}")))
             .advise("a coefficient without unit, 1e-7 to 1e-2, is that of `wear.archard-hardness`, with the hardness beside it; that of `wear.archard` is divided by the hardness: 1e-17 to 1e-12 per pascal for metals")
@@ -87,14 +83,10 @@ pub(super) fn check(view: &View, interface: &InterfaceDefinition) -> Option<Find
         })
         .collect();
     Some(
-        Finding::new(
-            DoctorCause::ExplicitWear,
-            Severity::Note,
-            format!(
-                "interface {name}: wear is explicit, and stable as long as no increment slides by more than about {limit:.3e}{}",
-                jumps.concat()
-            ),
-        )
+        DoctorCause::ExplicitWear.note(format!(
+            "interface {name}: wear is explicit, and stable as long as no increment slides by more than about {limit:.3e}{}",
+            jumps.concat()
+        ))
         .blame(Suspect::key(format!("interface.{name}.wear-feedback"), ""))
         .advise("`wear-feedback = \"implicit\"`, the default, has no such limit"),
     )

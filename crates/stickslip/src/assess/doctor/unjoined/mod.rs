@@ -6,10 +6,10 @@ use std::collections::BTreeSet;
 
 use placed::{Boundary, NEAR, Overlap, Placed, ROUNDING, boundaries, gap};
 
-use super::cause::DoctorCause;
-use super::finding::{Finding, Severity, Suspect};
+use super::finding::{DoctorCause, Finding};
 use super::places::{body as body_at, bounds};
 use super::record::note;
+use super::suspect::{Severity, Suspect};
 use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::math::{Vec3, distance};
 use crate::model::definition::{Model, Support};
@@ -358,7 +358,7 @@ fn finding(scene: &Scene, pair: &Pair, severity: Severity, message: String) -> B
         Other::Body(other) => {
             let other = &model.bodies[other].name;
             (
-                finding.blame(body_at(model, other, String::new())),
+                finding.blame(body_at(model, other, "")),
                 format!("{other}.SURFACE"),
             )
         }

@@ -1,45 +1,103 @@
-//! The Cholesky factor of all free dofs, with blocks of interfaces: faer's supernodal one.
-//!
-//! The multifrontal factor of this folder could do the same without kept dofs. Measured beside it (one thread, development build, best of 3 to 7):
-//! 4 800 dofs in 2D 4.8 ms against 3.8 ms here, 100 000 in 2D 0.214 s against 0.205 s, 31 944 in 3D 0.57 s against 0.67 s, 81 000 in 3D 3.8 s against
-//! 4.1 s; a solution takes 0.33 to 0.65 of the time. What it lacks is blocks between points that the matrix does not couple, and counts without the
-//! zeros it stores, by which methods are chosen (up to 50 % of the entries in small 2D models): it would change choices, and the bits of every sparse run.
+//! The factor of a whole matrix and of blocks that come and go, such as those of contact.
 
 use std::sync::Arc;
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor::{LltError, LltRegularization};
-use faer::sparse::linalg::cholesky::supernodal::{self, SupernodalLltRef};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Conj, MatMut, Par, Spec};
+use super::super::ordering::NONE;
+use super::super::{BlockCsr, LinearError};
+use super::graph::Nodes;
+use super::numeric::{Entry, PartialFactor, Workspace};
+use super::symbolic::Fronts;
 
-use super::symbolic::{FIXED, Symbolic};
-use super::{BlockCsr, LinearError};
-
-/// A pivot counts as zero below this many roundings (2.2e-16) per free dof, relative to its diagonal \[1\].
+/// Where the entries of a Cholesky factor are, for one pattern and one set of fixed dofs.
 ///
-/// Where the exact pivot is zero, rounding leaves up to one of these per dof, since on a regular mesh all cells round
-/// the same way (measured on bodies that nothing holds: 0.1 to 0.6, at 264 to 59 049 dofs). A sound structure that
-/// keeps less would be solved with hardly a correct digit; the softest, a cantilever one element thick, gets there
-/// at about two thousand elements of length.
-pub const SINGULAR_ROUNDINGS: f64 = 8.0;
-
-/// The Cholesky factor `A = L Lᵀ` of a symmetric positive definite matrix without its fixed dofs.
-///
-/// The factorisation is faer's supernodal one, on one thread: its bits depend on nothing but the input.
+/// The points are ordered by nested dissection of their coupling graph
+/// ([Karypis and Kumar 1998](crate::references::karypis_kumar_1998)), which in 3D leaves a third of the work of a
+/// minimum-degree ordering of the dofs. The free dofs of a point follow each other.
 #[derive(Debug)]
-pub struct Factor {
-    symbolic: Arc<Symbolic>,
-    values: Vec<f64>,
-    smallest_pivot: (usize, f64),
+pub struct Symbolic {
+    fronts: Arc<Fronts>,
+    nonzeros: usize,
+    flops: f64,
 }
 
-/// The lower triangle in the order of elimination, column by column; entries of a column may repeat.
-struct Lower {
-    starts: Vec<usize>,
-    rows: Vec<usize>,
-    values: Vec<f64>,
-    diagonal: Vec<f64>,
+/// The Cholesky factor `A = L Lᵀ` of a symmetric positive definite matrix without its fixed dofs; its bits are the same on any number of threads.
+#[derive(Debug)]
+pub struct Factor {
+    partial: PartialFactor,
+}
+
+impl Symbolic {
+    /// Analyses `matrix` without the dofs marked in `fixed`, together with groups of dofs that are `extra` coupled,
+    /// such as the candidates of a contact.
+    ///
+    /// # Errors
+    /// [`LinearError::OutOfMemory`].
+    ///
+    /// # Panics
+    /// If `fixed` has not one entry a dof or a group names a dof that does not exist.
+    pub fn analyze(
+        matrix: &BlockCsr,
+        fixed: &[bool],
+        extra: &[Vec<usize>],
+    ) -> Result<Symbolic, LinearError> {
+        assert_eq!(fixed.len(), matrix.rows(), "length of `fixed`");
+        let points = matrix.points();
+        let mut nodes = Nodes::new(matrix, 0..points, fixed, &vec![false; points])?;
+        nodes.couple(extra);
+        let elimination = nodes.elimination();
+        let dofs = |node| nodes.free(node).count();
+        let counts = nodes.column_counts(&elimination, dofs);
+        // The columns of the dofs of a node: each one shorter by one than that before it.
+        let columns = elimination.order.iter().zip(&counts);
+        let columns = columns.flat_map(|(&node, &count)| (0..dofs(node)).map(move |k| count - k));
+        Ok(Symbolic {
+            nonzeros: columns.clone().sum(),
+            flops: columns.map(|count| (count as f64).powi(2)).sum(),
+            fronts: Arc::new(Fronts::of_nodes(&nodes, &elimination)?),
+        })
+    }
+
+    /// Whether the free ones of these dofs may all be coupled to each other without a new analysis.
+    ///
+    /// What the factor stores counts, not what the matrix couples: fill can be used by any later block.
+    pub fn covers(&self, dofs: &[usize]) -> bool {
+        self.fronts.first_uncovered(dofs).is_none()
+    }
+
+    /// Entries of the factor, without the zeros stored to make its blocks larger.
+    pub fn factor_nonzeros(&self) -> usize {
+        self.nonzeros
+    }
+
+    /// Additions and multiplications of one factorisation.
+    pub fn flops(&self) -> f64 {
+        self.flops
+    }
+
+    /// Lower triangles of dense blocks, in the order of their columns.
+    fn entries(&self, blocks: &[(&[usize], &[f64])]) -> Result<Vec<Entry>, LinearError> {
+        let mut entries = Vec::new();
+        for &(dofs, dense) in blocks {
+            assert_eq!(dense.len(), dofs.len().pow(2), "size of a dense block");
+            if let Some(dofs) = self.fronts.first_uncovered(dofs) {
+                return Err(LinearError::NotAnalysed { dofs });
+            }
+            let position = |&dof: &usize| self.fronts.position_of[dof];
+            let free = |at: &(u32, usize)| at.0 != NONE;
+            let columns: Vec<_> = dofs.iter().map(position).zip(0..).filter(free).collect();
+            for &(row, i) in &columns {
+                let left = columns.iter().filter(|(column, _)| row >= *column);
+                entries.extend(left.map(|&(column, j)| Entry {
+                    row,
+                    column,
+                    value: dense[i * dofs.len() + j],
+                }));
+            }
+        }
+        // Stable: repeated entries are added in the order they came.
+        entries.sort_by_key(|entry| (entry.column, entry.row));
+        Ok(entries)
+    }
 }
 
 impl Factor {
@@ -53,61 +111,22 @@ impl Factor {
     /// # Panics
     /// If `matrix` has not the points or block size analysed, or a block not the square of its dofs.
     pub fn new(
-        symbolic: &Arc<Symbolic>,
+        symbolic: &Symbolic,
         matrix: &BlockCsr,
         extra: &[(&[usize], &[f64])],
     ) -> Result<Factor, LinearError> {
-        let shape = (matrix.points(), matrix.block_size());
-        assert_eq!(shape, symbolic.shape, "not the matrix analysed");
-        // The factor, and the lower triangle from which it is made.
-        let all = symbolic.factor_nonzeros() + 2 * matrix.nnz();
-        LinearError::unless_free(8 * all as u64)?;
-        let lower = assemble_lower(symbolic, matrix, extra)?;
-
-        let n = symbolic.free();
-        let supernodes = &symbolic.supernodes;
-        let mut values = zeros(supernodes.len_val())?;
-        let scratch = supernodal::factorize_supernodal_numeric_llt_scratch::<usize, f64>(
-            supernodes,
-            Par::Seq,
-            Spec::default(),
-        );
-        let mut memory = MemBuffer::try_new(scratch).map_err(|_| LinearError::OutOfMemory {
-            bytes: scratch.size_bytes() as u64,
-        })?;
-        let pattern =
-            SymbolicSparseColMatRef::new_unsorted_checked(n, n, &lower.starts, None, &lower.rows);
-        let result = supernodal::factorize_supernodal_numeric_llt(
-            &mut values,
-            SparseColMatRef::new(pattern, &lower.values),
-            LltRegularization::default(),
-            supernodes,
-            Par::Seq,
-            MemStack::new(&mut memory),
-            Spec::default(),
-        );
-        if let Err(LltError::NonPositivePivot { index }) = result {
-            return Err(LinearError::NotPositive {
-                dof: symbolic.order[index] as usize,
-            });
-        }
-        let smallest_pivot = check_pivots(symbolic, &values, &lower.diagonal)?;
-        Ok(Factor {
-            symbolic: Arc::clone(symbolic),
-            values,
-            smallest_pivot,
-        })
-    }
-
-    /// The analysis this factor was made with.
-    pub fn symbolic(&self) -> &Arc<Symbolic> {
-        &self.symbolic
+        let fronts = &symbolic.fronts;
+        LinearError::unless_free(fronts.peak_bytes())?;
+        let entries = symbolic.entries(extra)?;
+        let workspace = Workspace::of([fronts.longest()]);
+        let (partial, _) = PartialFactor::with(fronts, matrix, &entries, &workspace)?;
+        Ok(Factor { partial })
     }
 
     /// The dof with the smallest pivot relative to its diagonal, and that ratio \[1\]. Near the limit of
-    /// [`SINGULAR_ROUNDINGS`] the structure is almost a mechanism.
+    /// [`SINGULAR_ROUNDINGS`](super::super::SINGULAR_ROUNDINGS) the structure is almost a mechanism.
     pub fn smallest_pivot(&self) -> (usize, f64) {
-        self.smallest_pivot
+        self.partial.smallest_pivot()
     }
 
     /// Solves `A x = rhs` in place, for a vector over all dofs: entries of fixed dofs are ignored and become zero.
@@ -123,160 +142,28 @@ impl Factor {
     /// # Panics
     /// If `rhs` has not `columns` entries a dof.
     pub fn solve_columns(&self, rhs: &mut [f64], columns: usize) {
-        let dofs = self.symbolic.step_of.len();
+        let fronts = self.partial.fronts();
+        let (dofs, order) = (fronts.position_of.len(), fronts.interior());
         assert_eq!(rhs.len(), dofs * columns, "length of the right-hand side");
-        let n = self.symbolic.free();
-        if n == 0 || columns == 0 {
-            rhs.fill(0.0);
-            return;
+        let mut x = Vec::with_capacity(order.len() * columns);
+        for column in rhs.chunks_exact(dofs.max(1)) {
+            x.extend(order.iter().map(|&dof| column[dof as usize]));
         }
-        let mut x = Vec::with_capacity(n * columns);
-        for column in rhs.chunks_exact(dofs) {
-            x.extend(self.symbolic.order.iter().map(|&dof| column[dof as usize]));
-        }
-        let supernodes = &self.symbolic.supernodes;
-        let scratch = supernodes.solve_in_place_scratch::<f64>(columns, Par::Seq);
-        SupernodalLltRef::new(supernodes, &self.values).solve_in_place_with_conj(
-            Conj::No,
-            MatMut::from_column_major_slice_mut(&mut x, n, columns),
-            Par::Seq,
-            MemStack::new(&mut MemBuffer::new(scratch)),
-        );
+        self.partial.forward(&mut x, &mut [], columns);
+        self.partial.backward(&mut x, &[], columns);
         rhs.fill(0.0);
-        for (column, x) in rhs.chunks_exact_mut(dofs).zip(x.chunks_exact(n)) {
-            for (&dof, &x) in self.symbolic.order.iter().zip(x) {
+        let solutions = x.chunks_exact(order.len().max(1));
+        for (column, x) in rhs.chunks_exact_mut(dofs.max(1)).zip(solutions) {
+            for (&dof, &x) in order.iter().zip(x) {
                 column[dof as usize] = x;
             }
         }
     }
 }
 
-/// Zeros, or the news that they do not fit.
-pub(super) fn zeros(length: usize) -> Result<Vec<f64>, LinearError> {
-    bytemuck::try_zeroed_vec(length).map_err(|()| LinearError::OutOfMemory {
-        bytes: 8 * length as u64,
-    })
-}
-
-/// Collects the matrix and the extra blocks in the order of elimination.
-fn assemble_lower(
-    symbolic: &Symbolic,
-    matrix: &BlockCsr,
-    extra: &[(&[usize], &[f64])],
-) -> Result<Lower, LinearError> {
-    let blocks = lower_of_blocks(symbolic, extra)?;
-    let mut blocks = blocks.into_iter().peekable();
-    let b = matrix.block_size();
-    let n = symbolic.free();
-    let expected = matrix.nnz() / 2 + n + blocks.len();
-    let mut lower = Lower {
-        starts: Vec::with_capacity(n + 1),
-        rows: Vec::with_capacity(expected),
-        values: Vec::with_capacity(expected),
-        diagonal: Vec::with_capacity(n),
-    };
-    lower.starts.push(0);
-    for (column, &dof) in symbolic.order.iter().enumerate() {
-        let (point, component) = (dof as usize / b, dof as usize % b);
-        let mut diagonal = 0.0;
-        let mut finite = true;
-        let mut push = |row: usize, value: f64| {
-            finite &= value.is_finite();
-            if row == column {
-                diagonal += value;
-            }
-            lower.rows.push(row);
-            lower.values.push(value);
-        };
-        // By symmetry the column is read from the row of the same dof.
-        let row_blocks = matrix.row_blocks(point).chunks_exact(b * b);
-        for (&other, block) in matrix.neighbours(point).iter().zip(row_blocks) {
-            let steps = &symbolic.step_of[other as usize * b..][..b];
-            for (&row, &value) in steps.iter().zip(&block[component * b..]) {
-                if row != FIXED && row as usize >= column {
-                    push(row as usize, value);
-                }
-            }
-        }
-        while let Some((_, row, value)) = blocks.next_if(|entry| entry.0 as usize == column) {
-            push(row as usize, value);
-        }
-        // A sum of finite values may still overflow.
-        if !(finite && diagonal.is_finite()) {
-            return Err(LinearError::NotFinite { dof: dof as usize });
-        }
-        lower.diagonal.push(diagonal);
-        lower.starts.push(lower.rows.len());
-    }
-    Ok(lower)
-}
-
-/// The lower triangles of dense blocks as `(column, row, value)` by steps, sorted by column.
-fn lower_of_blocks(
-    symbolic: &Symbolic,
-    extra: &[(&[usize], &[f64])],
-) -> Result<Vec<(u32, u32, f64)>, LinearError> {
-    let mut entries = Vec::new();
-    for &(dofs, dense) in extra {
-        assert_eq!(
-            dense.len(),
-            dofs.len() * dofs.len(),
-            "size of a dense block"
-        );
-        if let Some(dofs) = symbolic.first_uncovered(dofs) {
-            return Err(LinearError::NotAnalysed { dofs });
-        }
-        for (&i, values) in dofs.iter().zip(dense.chunks_exact(dofs.len())) {
-            let row = symbolic.step_of[i];
-            if row == FIXED {
-                continue;
-            }
-            for (&j, &value) in dofs.iter().zip(values) {
-                let column = symbolic.step_of[j];
-                if column != FIXED && row >= column {
-                    entries.push((column, row, value));
-                }
-            }
-        }
-    }
-    // Stable: repeated entries are added in the order they came.
-    entries.sort_by_key(|entry| (entry.0, entry.1));
-    Ok(entries)
-}
-
-/// The smallest pivot relative to the diagonal and its dof, or an error if it counts as zero.
-fn check_pivots(
-    symbolic: &Symbolic,
-    values: &[f64],
-    diagonal: &[f64],
-) -> Result<(usize, f64), LinearError> {
-    let mut smallest = (0, f64::INFINITY);
-    let factor = SupernodalLltRef::new(&symbolic.supernodes, values);
-    for s in 0..symbolic.supernodes.n_supernodes() {
-        let supernode = factor.supernode(s);
-        let block = supernode.val();
-        for i in 0..block.ncols() {
-            let step = supernode.start() + i;
-            let ratio = block[(i, i)] * block[(i, i)] / diagonal[step];
-            let dof = symbolic.order[step] as usize;
-            if ratio.is_nan() {
-                return Err(LinearError::NotFinite { dof });
-            }
-            if ratio < smallest.1 {
-                smallest = (dof, ratio);
-            }
-        }
-    }
-    let (dof, ratio) = smallest;
-    if ratio < SINGULAR_ROUNDINGS * f64::EPSILON * symbolic.free() as f64 {
-        return Err(LinearError::Singular { dof, ratio });
-    }
-    Ok(smallest)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{self, dense_of, grid, noise};
+    use super::super::super::testing::{self, dense_of, grid, noise};
     use super::*;
 
     fn analyze(matrix: &BlockCsr, fixed: &[bool], extra: &[Vec<usize>]) -> Arc<Symbolic> {
@@ -328,8 +215,7 @@ mod tests {
             let a = grid(counts, block);
             let fixed = supports(&a, counts[0]);
             let symbolic = analyze(&a, &fixed, &[]);
-            assert_eq!(symbolic.free(), fixed.iter().filter(|f| !**f).count());
-            assert!(symbolic.factor_nonzeros() >= symbolic.free());
+            assert!(symbolic.factor_nonzeros() >= fixed.iter().filter(|f| !**f).count());
             let factor = Factor::new(&symbolic, &a, &[]).unwrap();
             let rhs = noise(&mut 5, a.rows());
             let mut x = rhs.clone();
