@@ -12,6 +12,7 @@
 //! | kinematics | `kinematics/` | gap and slip with their derivatives: the [`Stencil`](kinematics::Stencil) |
 //! | law, enforcement | `law/`, `enforcement/` | numbers in, numbers and derivatives out |
 //! | response | `response/` | traction and its derivatives in the frame of the stencil |
+//! | worn | `worn/` | depths that sliding has worn off both surfaces, and where those of the primary are kept |
 //! | interface | `interface/` | the only place that scatters into residual and tangent |
 //! | look | `look/` | what an interface says of itself: functions of shared references, which cannot write |
 //!
@@ -79,3 +80,4 @@ pub mod search;
 pub mod surface;
 pub mod symmetry;
 pub mod walls;
+pub mod worn;

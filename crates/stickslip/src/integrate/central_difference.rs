@@ -124,10 +124,6 @@ impl Integrator for Explicit {
         self.exact = std::mem::take(&mut self.exact_after);
     }
 
-    fn explicit(&self) -> Option<&Explicit> {
-        Some(self)
-    }
-
     fn bound(&self, model: &Model, frame: &Frame, contact: &Contact) -> Option<f64> {
         let fixed = model.steps[frame.step].fixed;
         (!fixed).then(|| self.stable_increment(model, frame, contact))

@@ -5,9 +5,11 @@
 //! ```
 
 use crate::contact::look;
+use std::any::Any;
 use std::sync::Arc;
 
 use super::exact::{Exact, Mobility};
+use super::integrator::Integrator;
 use super::onset::{AFTER, initial_contact, look_at_contact};
 use crate::body::internal::{InternalForce, largest_eigenvalue};
 use crate::contact::interface::{Conditions, History, Interface, use_springs};
@@ -75,6 +77,11 @@ pub(crate) struct Explicit {
     /// What is held exactly, at the last accepted state and after the attempt.
     pub(super) exact: Exact,
     pub(super) exact_after: Exact,
+}
+
+/// What explicit increments need, where an integrator makes these.
+pub(crate) fn explicit(integrator: &dyn Integrator) -> Option<&Explicit> {
+    (integrator as &dyn Any).downcast_ref()
 }
 
 impl Explicit {

@@ -1,6 +1,7 @@
 //! How increments are made: one attempt at one increment.
 
-use super::explicit::Explicit;
+use std::any::Any;
+
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
@@ -10,7 +11,7 @@ use crate::system::StepFailure;
 use crate::time::Trial;
 
 /// Makes increments of one kind.
-pub(crate) trait Integrator: Send + Sync {
+pub(crate) trait Integrator: Any + Send + Sync {
     /// Tries one increment from the last accepted one. Nothing but caches, and what interfaces know of an attempt, is changed.
     fn attempt(
         &mut self,
@@ -26,11 +27,6 @@ pub(crate) trait Integrator: Send + Sync {
 
     /// The longest increment that is stable now, with its safety; `None` where any is, or where increments are given.
     fn bound(&self, _model: &Model, _frame: &Frame, _contact: &Contact) -> Option<f64> {
-        None
-    }
-
-    /// What explicit increments need, if it makes these.
-    fn explicit(&self) -> Option<&Explicit> {
         None
     }
 }

@@ -7,6 +7,7 @@ use super::position::Increments;
 use super::record::ledger_after;
 use crate::assess::quality::still_energy;
 use crate::contact::look;
+use crate::integrate::explicit::explicit;
 use crate::model::frame::ContactMemory;
 use crate::model::limits::GateMode;
 use crate::solve::accepted::Accepted;
@@ -91,7 +92,7 @@ fn resolves(run: &Run, trial: Trial, after: &ContactMemory) -> bool {
 /// What a push on a point of the mesh moves `[1/kg]`, zero where that has no inertia of its own.
 fn inverse_masses(run: &Run) -> Vec<f64> {
     let inverse = |m: f64| if m > 0.0 { 1.0 / m } else { 0.0 };
-    match (run.integrator.explicit(), &run.solver.inertia) {
+    match (explicit(run.integrator.as_ref()), &run.solver.inertia) {
         (Some(explicit), _) => {
             let points = 0..run.model.mesh.points.len();
             points

@@ -83,7 +83,7 @@ macro_rules! view {
                 frame: &$run.frame,
             },
             solver: &$run.solver,
-            explicit: $run.integrator.explicit(),
+            explicit: $crate::integrate::explicit::explicit($run.integrator.as_ref()),
         }
     };
 }

@@ -7,7 +7,7 @@ use super::parts::Run;
 use super::position::{Increments, Steps};
 use crate::contact::interface::{History, memory, remember};
 use crate::error::{Error, RunError};
-use crate::integrate::explicit::{Explicit, ExplicitState};
+use crate::integrate::explicit::{Explicit, ExplicitState, explicit};
 use crate::integrate::implicit::Implicit;
 use crate::integrate::integrator::Integrator;
 use crate::integrate::quasi_static::QuasiStatic;
@@ -42,7 +42,7 @@ pub(super) fn attempt_state(run: &Run) -> AttemptState {
             .map(|(i, conditions)| memory(i, conditions))
             .collect(),
         couplings: run.contact.couplings.state(),
-        explicit: run.integrator.explicit().map(Explicit::state),
+        explicit: explicit(run.integrator.as_ref()).map(Explicit::state),
         solver: run.solver.state(),
     }
 }

@@ -24,6 +24,7 @@ use crate::assess::diagnosis::CheckReport;
 use crate::assess::doctor;
 use crate::error::Error;
 use crate::friction::FrictionProblem;
+use crate::integrate::explicit::explicit;
 use crate::model::Setup;
 use crate::newton::condensed::Library;
 use crate::results::observer::{Event, Observer, Snapshot};
@@ -237,7 +238,7 @@ impl Simulation {
         prepare(run, trial, running.attempt, observers)?;
         let counters = doctor::Counters::of(&run.solver.newton.statistics);
         let stoppable = run.solver.newton.interrupt.is_some();
-        let solves = run.integrator.explicit().is_none();
+        let solves = explicit(run.integrator.as_ref()).is_none();
         self.before = (stoppable && solves).then(|| attempt_state(run));
         let outcome = attempt(run, trial, observers)?;
         if matches!(&outcome, Err(e) if e.cause == Cause::Interrupted) {

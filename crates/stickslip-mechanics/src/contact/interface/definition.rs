@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use super::history::History;
 use super::initial::Initial;
-use super::wear::OppositeWear;
 use crate::contact::kinematics::KinematicsModel;
 use crate::contact::law::friction::LawState;
 use crate::contact::mortar::Mortar;
@@ -12,6 +11,7 @@ use crate::contact::obstacle::{Motion, ObstacleShape};
 use crate::contact::response::Laws;
 use crate::contact::surface::{ContactPoint, Facet, Skin};
 use crate::contact::walls::Walls;
+use crate::contact::worn::OppositeWear;
 use crate::math::{Vec3, add, distance, norm, sub};
 use crate::system::{BodyFrames, Dofs, FramePose, Schedule, Stage};
 

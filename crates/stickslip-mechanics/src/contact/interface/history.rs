@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use super::wear::WornSurfaces;
 use crate::contact::law::friction::{FrictionLaw, LawState};
 use crate::contact::response::Status;
+use crate::contact::worn::WornSurfaces;
 use crate::math::Vec3;
 use crate::system::Energy;
 

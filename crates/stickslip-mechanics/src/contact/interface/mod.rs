@@ -82,4 +82,3 @@ pub use springs::{pull_ties, use_springs};
 pub use stiffness::mass_per_area;
 pub use user_laws::{with_friction_law, with_user_laws};
 pub use view::ContactView;
-pub use wear::{OppositeWear, TrackSampling, WearTrack};

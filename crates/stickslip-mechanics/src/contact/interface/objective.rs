@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::Initial;
 use super::commit::commit;
 use super::conditions::Conditions;
 use super::definition::{InterfaceDefinition, InterfaceMesh, Primary};
 use super::history::{History, PointHistory};
 use super::parts::Interface;
 use super::view::ContactView;
-use super::{Initial, OppositeWear};
 use crate::contact::enforcement::{EnforcementModel, Penalty};
 use crate::contact::kinematics::{KinematicsModel, Pop1995, SmallSliding};
 use crate::contact::law::friction::{Coulomb, FrictionModel};
@@ -17,6 +17,7 @@ use crate::contact::law::slip::{Regularised, SlipModel};
 use crate::contact::mortar::{Face, Mortar, positive_areas};
 use crate::contact::response::{Laws, Status};
 use crate::contact::surface::{ContactPoint, Facet, connect, skin};
+use crate::contact::worn::OppositeWear;
 use crate::math::{Mat3, Vec3, add, cross, dot, mat_vec, norm, normalize, rotation, scale, sub};
 use crate::shape::ElementKind;
 use crate::system::{Assembler, Dofs, Force, Schedule, Stage, State};

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::sheet::Sheet;
-use crate::contact::interface::WearTrack;
 use crate::contact::interface::view::ContactView;
 use crate::contact::obstacle::Place;
+use crate::contact::worn::WearTrack;
 use crate::math::{Vec3, add, sub};
 use crate::shape::ElementKind;
 use crate::system::{Field, Fields, Location};

@@ -11,16 +11,14 @@ use super::schedules::Timeline;
 use super::sets::Sets;
 use super::surfaces::{Numbering, Surfaces};
 use crate::contact::enforcement::Multipliers;
-use crate::contact::interface::{
-    Initial, InterfaceDefinition, InterfaceMesh, OppositeWear, Primary, Start, TrackSampling,
-    WearTrack,
-};
+use crate::contact::interface::{Initial, InterfaceDefinition, InterfaceMesh, Primary, Start};
 use crate::contact::law::wear::{Feedback, WearRate};
 use crate::contact::look::neighbours;
 use crate::contact::mortar::Mortar;
 use crate::contact::response::Laws;
 use crate::contact::surface::{ContactPoint, connect, skin, triangulate};
 use crate::contact::walls::Walls;
+use crate::contact::worn::{OppositeWear, TrackSampling, WearTrack};
 use crate::error::{Diagnostic, Error};
 use crate::math::{Vec3, norm, scale, sub};
 use crate::mesh::FacetRef;

@@ -96,7 +96,7 @@ const SPREAD: &[(&str, usize)] = &[
     ("results::Results", 2),
     ("solve::condenser::Condensed", 2),
     ("solve::floating_bodies::Floating", 2),
-    ("solve::solver::Solver", 10),
+    ("solve::solver::Solver", 9),
     ("system::assembler::ContactBlock", 2),
 ];
 

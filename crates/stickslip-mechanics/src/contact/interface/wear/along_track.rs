@@ -9,8 +9,8 @@ use super::super::history::History;
 use super::super::input::InterfaceInput;
 use super::super::scene::Scene;
 use super::super::sides::facet_weights;
-use super::track::Under;
 use crate::contact::obstacle::{Place, Pose};
+use crate::contact::worn::track::Under;
 use crate::math::{Vec3, add, add_scaled, norm, scale, sub};
 use crate::system::Stage;
 
@@ -49,7 +49,7 @@ pub(super) fn track_depth(i: usize, scene: &Scene, sides: &[(usize, f64)]) -> f6
 }
 
 /// Takes from the track what points have worn off it over an increment, along their ways.
-pub(in crate::contact::interface) fn wear_track(
+pub(in crate::contact) fn wear_track(
     input: InterfaceInput,
     last: &Evaluations,
     volumes: &[f64],

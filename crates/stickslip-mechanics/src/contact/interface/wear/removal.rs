@@ -4,7 +4,7 @@
 //! the depth of a point times its area is volume lost. The primary has a depth at its nodes, linear in between: what a point takes from it is divided among the
 //! corners of the facets that it lies over by the weights they have in its gap, over the area of each of them, and the gap takes the mean with the same
 //! weights. An obstacle has no nodes, and those of a primary are of no use where its matter goes by under the mesh: there the depth is kept on a track
-//! ([`WearTrack`](super::WearTrack)). What is lost on one side and the other is the volume that the laws say, to rounding, wherever one slides on the other.
+//! ([`WearTrack`](crate::contact::worn::WearTrack)). What is lost on one side and the other is the volume that the laws say, to rounding, wherever one slides on the other.
 //!
 //! Within an increment the depth of both follows from the pressure of the point at its end, most often in proportion: a compliance in series with the contact
 //! ([`LawInput::worn`](crate::contact::response::LawInput::worn)). The path in it is that which the iterate slides. Its derivative is in the tangent where there is
@@ -27,12 +27,12 @@ const EVALUATIONS: usize = 50;
 const SETTLED: f64 = 1e-13;
 
 /// Length of a way along two directions.
-pub(in crate::contact::interface) fn length(frame: [Vec3; 2], way: [f64; 2]) -> f64 {
+pub(in crate::contact) fn length(frame: [Vec3; 2], way: [f64; 2]) -> f64 {
     norm(add_scaled(scale(way[0], frame[0]), way[1], frame[1]))
 }
 
 /// Length of the way that a point slid, which moved by `moved` in all; a sticking point slides nowhere, a frictionless one all the way it moves.
-pub(in crate::contact::interface) fn path(
+pub(in crate::contact) fn path(
     response: &Response,
     frictional: bool,
     frame: [Vec3; 2],
@@ -46,11 +46,7 @@ pub(in crate::contact::interface) fn path(
 }
 
 /// Depth that is open at a point before the increment, which lies over the nodes of `sides` `[m]`.
-pub(in crate::contact::interface) fn wear_gap(
-    i: usize,
-    scene: &Scene,
-    sides: &[(usize, f64)],
-) -> f64 {
+pub(in crate::contact) fn wear_gap(i: usize, scene: &Scene, sides: &[(usize, f64)]) -> f64 {
     let interface = scene.interface;
     if !interface.laws.wears_away() {
         return 0.0;
@@ -65,7 +61,7 @@ pub(in crate::contact::interface) fn wear_gap(
 }
 
 /// By how much a point that slides a `path` over a time wears both sides away, near a pressure.
-pub(in crate::contact::interface) fn wear_compliance(
+pub(in crate::contact) fn wear_compliance(
     interface: InterfaceInput,
     i: usize,
     path: f64,
@@ -115,7 +111,7 @@ pub(in crate::contact::interface) fn wear_compliance(
 /// What the laws answer a point that wears as it slides. How far it slides depends on the pressure, which falls with what is worn off: the way rises from what it
 /// is without wear and is never longer than the whole, so that evaluations one after the other come to its end. Where the rate depends on the pressure they are those of
 /// Newton's method, of a depth that rises with the pressure.
-pub(in crate::contact::interface) fn wearing(
+pub(in crate::contact) fn wearing(
     interface: InterfaceInput,
     i: usize,
     stencil: &Stencil,
@@ -172,7 +168,7 @@ fn deepen(
 
 /// What a point wears off its own side and the other over an increment, per area that it stands for `[m]`. `pressed`: pressure times path by the
 /// trapezoidal rule.
-pub(in crate::contact::interface) fn wear_increment(
+pub(in crate::contact) fn wear_increment(
     interface: InterfaceInput,
     h: &PointHistory,
     e: &Evaluation,
@@ -202,7 +198,7 @@ pub(in crate::contact::interface) fn wear_increment(
 }
 
 /// Adds volumes that points take from the primary to the depths of its corners.
-pub(in crate::contact::interface) fn add_nodal_wear(
+pub(in crate::contact) fn add_nodal_wear(
     definition: &InterfaceDefinition,
     last: &Evaluations,
     volumes: &[f64],
