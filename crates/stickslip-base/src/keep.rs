@@ -3,7 +3,7 @@
 //! `#[derive(Keep)]` keeps all fields of a struct, and variants of an enum with what they carry. Numbers are little-endian, floats keep
 //! every bit, NaN included, lists have their length in front. There is neither a name nor a type in the bytes: they are read by a program that keeps the same
 //! fields in the same order, and who stores them puts a digest of that in front: of the [`layout`], a text that follows from the definitions, so
-//! that nobody has to think of it where a field comes in. General formats were considered. Those that serde feeds skip what is skipped in `summary.json`, which
+//! that it is not forgotten where a field comes in. General formats were considered. Those that serde feeds skip what is skipped in `summary.json`, which
 //! here must not be, and cannot say of what layout they are; borsh refuses NaN.
 
 use std::any::type_name;

@@ -153,7 +153,7 @@ impl Owner {
 
     /// Gives it back as it was found: with the name of whoever was killed with it.
     pub fn leave_as_it_was(mut self) {
-        // Nobody is left to tell if it cannot be written: then the name goes, too.
+        // No caller is left for an error if it cannot be written: then the name goes, too.
         if let (Some(_), Way::Lock(file)) = (self.before(), &mut self.way)
             && write_anew(file, &self.before).is_ok()
         {
@@ -171,7 +171,7 @@ impl Drop for Owner {
             let _ = beat.join();
         }
         // It may be another's by now: a lease if this process was held up for so long that it was taken for dead. First the name goes, then the lock: whoever
-        // opens the file in between finds it gone and tries again. Nobody is left to tell if it fails.
+        // opens the file in between finds it gone and tries again. No caller is left for an error.
         if self.stands() {
             let _ = fs::remove_file(&self.path);
         }
@@ -202,7 +202,7 @@ fn write_anew(file: &mut File, text: &[u8]) -> io::Result<()> {
 }
 
 /// Creates a lease with what it says in it. It is written under another name and linked, so that a process that is killed meanwhile leaves no empty lease,
-/// whose holder nobody can know.
+/// whose holder is unknown.
 fn create(path: &Path, who: &str) -> io::Result<File> {
     let new = |path: &Path| {
         let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;

@@ -25,7 +25,7 @@ fn programs(named: &str, system: &str, screen: bool) -> Vec<Vec<String>> {
     let own: &[&str] = match system {
         "macos" => &["open"],
         "windows" => &["explorer.exe"],
-        // Elsewhere the desktop is asked, which waits for nobody where there is no screen to show anything on.
+        // Elsewhere the desktop is asked, which does not wait where there is no screen to show anything on.
         _ if screen => &["xdg-open", "wslview", "gio open"],
         _ => &[],
     };

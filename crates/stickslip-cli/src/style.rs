@@ -22,7 +22,7 @@ pub enum Look {
     Wrong,
 }
 
-/// Whether standard error shows colours: it is a terminal that knows them, and nobody has asked for none (<https://no-color.org>).
+/// Whether standard error shows colours: it is a terminal with colours, and they are not switched off (<https://no-color.org>).
 pub fn coloured() -> bool {
     static COLOURED: LazyLock<bool> = LazyLock::new(|| {
         let is = |name: &str| std::env::var_os(name).unwrap_or_default();

@@ -151,7 +151,7 @@ impl State {
     }
 }
 
-/// Speaks when nobody else has for a while, until it is dropped.
+/// Prints a line when none was printed for a while, until it is dropped.
 pub struct Heartbeat {
     over: Arc<(Mutex<bool>, Condvar)>,
     thread: Option<JoinHandle<()>>,
@@ -251,7 +251,9 @@ impl Doing {
                 self.beside = format!("finding the interiors of {count} increments");
             }
             Work::Modes => self.beside.push_str("looking for modes"),
-            Work::Following => self.beside.push_str("moving loose bodies until they touch"),
+            Work::Following => self
+                .beside
+                .push_str("moving unconstrained bodies until they touch"),
         }
     }
 

@@ -5,7 +5,7 @@ use std::str::FromStr;
 use crate::field::Field;
 use crate::results::Results;
 
-/// Names of units; empty where nobody has said them.
+/// Names of units; empty where they are not given.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Units {
     /// Of lengths.

@@ -5,7 +5,7 @@
 //!
 //! - search: the tree of boxes and the candidates of all points, as after a large motion;
 //! - residual, tangent: one evaluation as Newton's method asks for it, without and with tangent;
-//! - lean: with tangent but without the symmetric stand-in for a preconditioner;
+//! - lean: with tangent but without the symmetric approximation for a preconditioner;
 //! - curved: with tangent and how gaps and slips curve, which bodies that are condensed ask for only where Newton's method misses it;
 //!
 //! and after the bar the tangent per candidate. The last column tells whether two versions of the program compute the same: the

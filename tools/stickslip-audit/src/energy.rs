@@ -139,7 +139,7 @@ fn kinetic(results: &Results, bulk: &Bulk, report: &mut Report) {
 }
 
 /// Work of friction per area over an increment at a point that slips at its end, at least and at most: along its way the shear is between that at the end and what
-/// its limit was at the start, which is nothing where it was open and else goes with the pressure. Nobody knows from the files when it began to slide. Under a
+/// its limit was at the start, which is nothing where it was open and else goes with the pressure. The files do not say when it began to slide. Under a
 /// `smooth` rule a point slips with any shear, that at the start also.
 fn taken(before: &Point, now: &Point, smooth: bool) -> [f64; 2] {
     let along = |shear: [f64; 2]| {

@@ -16,7 +16,7 @@ pub enum LinearError {
         dof: usize,
     },
     /// Next to nothing is left of the diagonal of this dof: the matrix is singular up to rounding.
-    /// A body that nothing holds in place ends here or in [`NotPositive`](LinearError::NotPositive).
+    /// An unconstrained body ends here or in [`NotPositive`](LinearError::NotPositive).
     Singular {
         /// The dof.
         dof: usize,

@@ -43,7 +43,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     if !directory.is_dir() {
         given::results(directory)?;
     }
-    // Nobody else writes there from here on, as long as it may take to assemble.
+    // No other process writes there from here on, as long as it may take to assemble.
     let held = FolderClaim::take(directory)?;
     let (saved, notes) = Saved::find(directory, arguments.from)?;
     for note in &notes {

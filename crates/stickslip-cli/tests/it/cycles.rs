@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use crate::support::{self, code, command, text};
 
-/// A punch that is driven to and fro on a layer; both wear.
+/// A punch that is driven back and forth on a layer; both wear.
 const CASE: &str = r#"format = 1
 model.space = "plane-strain"
 body.layer = { generate.rectangle = { from = [-1, 0], to = [2, 1], cells = [24, 4] }, material = "soft" }

@@ -155,7 +155,7 @@ fn held(job: &Job) -> BTreeSet<u64> {
     all.flat_map(|b| job.nodes(&b.target)).collect()
 }
 
-/// Whether a body may turn by any angle: where motion is asked for with `NLGEOM`, and nothing holds its points one by one or ties them to others.
+/// Whether a body may turn by any angle: where motion is asked for with `NLGEOM`, and its points are not supported one by one or ties them to others.
 fn turns_freely(job: &Job, held: &BTreeSet<u64>, space: Space, body: &Body) -> bool {
     let deck = job.deck;
     let moving = |s: &Step| s.nonlinear && s.is_dynamic();

@@ -92,8 +92,8 @@ fn refuse(job: &mut Job, step: &Step, action: &Action) {
         ),
         (Action::Boundary(b), true) if b.value != 0.0 => job.error(
             b.place,
-            "supports stand still in steady vibrations",
-            "let forces shake, or take the step to *DYNAMIC",
+            "base excitation is not supported in steady-state dynamics",
+            "use harmonic forces, or take the step to *DYNAMIC",
         ),
         _ => {}
     }

@@ -171,7 +171,7 @@ fn what_steady_vibrations_cannot_say_is_refused() {
         ),
         (
             "*STEADY STATE DYNAMICS\n1., 2.\n*BOUNDARY\nNBOT, 3, 3, .1\n",
-            "supports stand still",
+            "base excitation is not supported",
         ),
         (
             "*STEADY STATE DYNAMICS\n1., 2.\n*CLOAD, LOAD CASE=3\nNTOP, 3, 1.\n",

@@ -4,7 +4,7 @@ use crate::math::{Vec3, add_scaled, distance, norm, sub};
 use crate::mesh::Mesh;
 use crate::system::{Assembler, Augmentation, Dofs, Energy, Force, Stage, StepFailure, Tangent};
 
-/// Anchors of loose bodies.
+/// Anchors of unconstrained bodies.
 ///
 /// After each equilibrium the anchors move to where the bodies have come, and another is sought: the proximal point method. Where
 /// contact holds a body the anchors soon move no more; then they carry nothing, and have changed nothing. A motion that nothing resists

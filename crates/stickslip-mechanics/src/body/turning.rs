@@ -160,10 +160,10 @@ impl Elastic {
 
 /// The rotation in a displacement gradient `[rad]`: that of the linear theory, the length of the axial vector of its antisymmetric part, or that of
 /// the polar decomposition of `1 + H`, whichever is larger. They differ by a part of the third order; but only the first grows without
-/// bound with a motion that nothing holds, and only the second sees half a turn that is prescribed.
+/// bound with an unconstrained motion, and only the second sees half a turn that is prescribed.
 fn rotation_of(h: &Mat3) -> f64 {
     let linear = norm(axial(h));
-    // Far below any limit the difference is in digits that nobody reads.
+    // Far below any limit the difference is in digits that do not matter.
     if linear < 1e-4 && h.as_flattened().iter().all(|h| h.abs() < 0.1) {
         return linear;
     }

@@ -51,7 +51,7 @@
 //! - *Kinematics* makes a `Stencil`: gap and slips with their gradients `S` over the dofs of the point, and the rows `B` along which pressure and shear act,
 //!   unit vectors of a frame of now. Force and tangent are `Bᵀ t` and `Bᵀ D S + Σ tᵢ kᵢ`, whatever law made `t` and `D`.
 //! - *Laws.* A normal law gives pressure from gap and its inverse `h(p)`. Damping says what a closing velocity adds to that
-//!   pressure. A friction law gives only the limit. A slip rule turns limit and motion into traction. They know nothing of
+//!   pressure. A friction law gives only the limit. A slip rule turns limit and motion into traction. They are independent of
 //!   each other.
 //! - *Enforcement.* All three solve `gap - h(p) + (p - λ)/ω = 0` for `p ≥ 0`. They differ in λ: zero (penalty), an unknown
 //!   that is eliminated point by point (perturbed Lagrangian), an unknown as well, pulled to its last estimate (augmented Lagrangian). With `ω = ∞` a

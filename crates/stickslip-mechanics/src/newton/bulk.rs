@@ -23,7 +23,7 @@ pub trait Bulk {
     /// How stiffly a dof resists, for the rounding of forces `[N/m]`.
     fn diagonal(&self, dof: usize) -> f64;
 
-    /// Whether the solution needs symmetric stand-ins for the tangents of the interfaces.
+    /// Whether the solution needs symmetric approximations for the tangents of the interfaces.
     fn wants_surrogates(&self) -> bool {
         true
     }

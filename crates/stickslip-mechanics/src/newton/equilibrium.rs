@@ -191,7 +191,7 @@ fn solve(
     let counts = &mut *attempt.statistics;
     let solved = (system.bulk).solve(out, b, wanted, du, &settings, &mut *counts);
     let krylov = match solved {
-        // Preconditioners know nothing of the curvature. Where it is so large that they fail, slower iterations are better than none.
+        // Preconditioners do not include the curvature. Where it is so large that they fail, slower iterations are better than none.
         Err(failure) if failure.cause == Cause::LinearSolver && out.drop_curvature() => {
             *curvature = Curvature::Refused;
             (system.bulk).solve(out, b, wanted, du, &settings, counts)?

@@ -479,7 +479,7 @@ fn drift(operator: Operator, gaps: &GapVariables) -> f64 {
     all.values().map(of_point).fold(0.0, f64::max)
 }
 
-/// The symmetric stand-ins of the blocks: those that are stiffnesses of a gap, added up by point, and all others.
+/// The symmetric approximations of the blocks: those that are stiffnesses of a gap, added up by point, and all others.
 fn split(operator: Operator, gaps: &GapVariables) -> (Vec<(usize, [f64; 9])>, Groups) {
     let dim = operator.matrix.block_size();
     let mut added: Vec<(usize, [f64; 9])> = Vec::new();
@@ -538,7 +538,7 @@ fn is_gap_stiffness(
     }
 }
 
-/// The stand-in of a block over all dofs of its points.
+/// The symmetric approximation of a block over all dofs of its points.
 fn group(block: &ContactBlock, dim: usize) -> (Vec<usize>, Vec<f64>) {
     let mut points: Vec<usize> = block.dofs.iter().map(|dof| dof / dim).collect();
     points.sort_unstable();

@@ -26,7 +26,7 @@ pub struct Linearised {
     /// What contact may couple, of which the symbolic factor was made with the pattern of the matrix.
     analysed: Arc<Vec<Vec<usize>>>,
     factor: Option<Factor>,
-    /// Contact that went into the factor: its dofs and stand-ins.
+    /// Contact that went into the factor: its dofs and approximations.
     factored: Arc<Vec<StandIn>>,
     stale: bool,
 }

@@ -2,7 +2,7 @@
 
 use crate::math::Vec3;
 
-/// The tangent of one contact point, `rowsᵀ change + hessian`, with a symmetric positive semi-definite stand-in for the preconditioner.
+/// The tangent of one contact point, `rowsᵀ change + hessian`, with a symmetric positive semi-definite approximation for the preconditioner.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ContactBlock {
     /// Global dofs.
@@ -75,7 +75,7 @@ pub struct Tangent<'a> {
     pub area: f64,
     /// Curvature; may be empty.
     pub hessian: &'a [f64],
-    /// Symmetric stand-in; may be empty.
+    /// Symmetric approximation; may be empty.
     pub surrogate: &'a [f64],
 }
 
@@ -102,7 +102,7 @@ pub struct Assembler {
     pub wants_tangent: bool,
     /// Whether a tangent is to tell of its pairs. Stays as it is from one evaluation to the next; `false` to begin with.
     pub wants_pairs: bool,
-    /// Whether the blocks have to bring a symmetric stand-in with them, for a preconditioner. Stays as it is from one evaluation to the
+    /// Whether the blocks have to bring a symmetric approximation with them, for a preconditioner. Stays as it is from one evaluation to the
     /// next; `true` to begin with.
     pub wants_surrogate: bool,
     /// What the tangent does not know of, the turn of surfaces as a whole, is that of the last accepted state. For bodies that are followed: they roll, and

@@ -67,7 +67,7 @@ pub struct Energy {
     /// Quasi-static increments since the start: work on the bodies by the trapezoidal rule less that along the path of pressure and shear, in
     /// which points open, close, and begin to slide within an increment. What drives them has done as much more than that rule says.
     pub path: f64,
-    /// By how much the dissipated energy may be off at most, as nobody knows when within an increment points began to slide.
+    /// By how much the dissipated energy may be off at most, as it is not known when within an increment points began to slide.
     pub uncertain: f64,
     /// In motion: dissipated beyond the trapezoidal rule, where slip turned round within an increment and that rule would have friction give energy
     /// back. What the scheme enters as its own takes the rule for granted.

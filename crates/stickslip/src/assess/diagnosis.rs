@@ -1,4 +1,4 @@
-//! What can be said of a model before it runs, and of a body that nothing holds.
+//! What can be said of a model before it runs, and of an unconstrained body.
 
 use std::fmt;
 

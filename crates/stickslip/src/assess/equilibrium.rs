@@ -34,7 +34,7 @@ struct Acting {
 
 impl View<'_> {
     /// Resultants of what acts on the bodies from outside. The forces inside a body have none, so that it is a check of the solution that
-    /// knows nothing of how it was found. In motion the out-of-balance forces of the scheme are taken, in which inertia and damping
+    /// does not depend on how it was found. In motion the out-of-balance forces of the scheme are taken, in which inertia and damping
     /// stand as well.
     pub(crate) fn judge_bodies(&self, limits: &Limits, gate: &mut Gate) {
         let fixed = self.constraints(self.frame.state.t).fixed;

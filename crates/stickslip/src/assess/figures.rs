@@ -166,7 +166,7 @@ pub(crate) static FRICTION_LAW: Kind = Kind {
     name: "friction-law",
     own: LEAST,
     model: TRACE,
-    what: "points that slip carry another shear than their limit, or one along their slip, by this part of it",
+    what: "shear of slipping points differs from the friction limit, or does not oppose slip, by this fraction of it",
     help: "take smaller increments; if that does not help please report it",
 };
 
@@ -243,7 +243,7 @@ pub(crate) static MODE_RESIDUAL: Kind = Kind {
     own: 0.0,
     model: 0.0,
     what: "the equations of motion are left open by this part in the worst mode or vibration",
-    help: "ask for fewer modes, or hold bodies that nothing holds; of vibrations, take more of the modes that they are made of",
+    help: "ask for fewer modes, or support unconstrained bodies; of vibrations, take more of the modes that they are made of",
 };
 
 pub(crate) static DISPLACEMENT: Kind = Kind {
@@ -251,7 +251,7 @@ pub(crate) static DISPLACEMENT: Kind = Kind {
     own: 1.0,
     model: 0.0,
     what: "the body has moved by this multiple of the size of the model and the way that is prescribed",
-    help: "nothing holds it back: support it, lower what drives it, or look for a load in the wrong unit; if it is meant to go there, raise `quality.displacement`",
+    help: "it is unconstrained: support it, lower what drives it, or look for a load in the wrong unit; if it is meant to go there, raise `quality.displacement`",
 };
 
 pub(crate) static FALSE_SHEAR: Kind = Kind {

@@ -17,7 +17,7 @@ pub(crate) struct Turned {
 }
 
 impl Turned {
-    /// What is missed at a place, `½ θ × (θ × (x - c))`; in a direction in which nothing holds the body it is known but for a constant.
+    /// What is missed at a place, `½ θ × (θ × (x - c))`; in an unconstrained direction of the body it is known but for a constant.
     pub fn missed(&self, x: Vec3) -> Vec3 {
         std::array::from_fn(|c| {
             let arm = sub(x, self.anchors[c].unwrap_or_default());
@@ -32,7 +32,7 @@ impl Turned {
 
 /// What is missed of the gap at the points of an interface `[m]`: `sides` are what moves the secondary and the primary at each.
 ///
-/// A body that nothing holds in a direction goes there until it touches: what its surface misses in the mean is no gap.
+/// A body that is unconstrained in a direction goes there until it touches: what its surface misses in the mean is no gap.
 pub(crate) fn missed_gaps(points: &[Pressing], sides: &[[Option<&Turned>; 2]]) -> Vec<f64> {
     let mut out = vec![0.0; points.len()];
     for (side, sign) in [(0, 1.0), (1, -1.0)] {

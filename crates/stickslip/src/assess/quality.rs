@@ -385,7 +385,7 @@ impl View<'_> {
         }
         if !moves && unknown > UNKNOWN * scale {
             notes.push(format!(
-                "friction took {:.3e}, give or take {unknown:.1e}: points began to slide within increments, and nobody knows when. Smaller increments make it less",
+                "friction took {:.3e}, ± {unknown:.1e}: points began to slide within increments, at times that are not known. Smaller increments make it less",
                 ledger.friction
             ));
         }

@@ -9,7 +9,7 @@ use crate::contact::look;
 use crate::math::{Vec3, dot};
 use crate::model::limits::Limits;
 
-/// Angle in radians below which nobody looks: half its square is less than rounding leaves of most coordinates.
+/// Angle in radians below which it is not judged: half its square is less than rounding leaves of most coordinates.
 const NOTHING: f64 = 1e-7;
 
 impl View<'_> {

@@ -1,4 +1,4 @@
-//! Bodies that nothing holds, for a person: before a step begins, and after an increment in which one could not be brought to rest.
+//! Unconstrained bodies, for a person: before a step begins, and after an increment in which one could not be brought to rest.
 
 use super::doctor::{DoctorCause, Finding, Suspect, body_at, let_go};
 use super::view::View;

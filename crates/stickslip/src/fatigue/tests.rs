@@ -47,7 +47,7 @@ fn close(found: f64, expected: f64, what: &str) {
     );
 }
 
-/// Tension that goes to and fro by `a` about `m`: on the plane at an angle `θ` the shear is `σ sin 2θ / 2` and the normal stress `σ (1 + cos 2θ) / 2`, so that Findley's is
+/// Tension that goes back and forth by `a` about `m`: on the plane at an angle `θ` the shear is `σ sin 2θ / 2` and the normal stress `σ (1 + cos 2θ) / 2`, so that Findley's is
 /// `(√(a² + k² (m + a)²) + k (m + a)) / 2`.
 #[test]
 fn tension_along_an_axis() {
@@ -79,7 +79,7 @@ fn tension_along_an_axis() {
     assert!((plane(&Findley { k }) - angle).abs() < 0.05);
 }
 
-/// Shear that goes to and fro: on the plane at `θ` there is shear `τ cos 2θ` and normal stress `τ sin 2θ`.
+/// Shear that goes back and forth: on the plane at `θ` there is shear `τ cos 2θ` and normal stress `τ sin 2θ`.
 #[test]
 fn pure_shear() {
     let t = 130.0;

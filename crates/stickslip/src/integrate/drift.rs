@@ -22,7 +22,7 @@ use crate::system::{Constraints, Dofs, IncrementalRotation, State};
 pub(super) struct Drift<'a> {
     dofs: Dofs,
     spinning: IncrementalRotation,
-    /// The hidden points of those whose rotations nothing holds.
+    /// The rotation nodes of rigid bodies without rotational supports.
     free: Vec<usize>,
     /// The start, rotations counted from there and moments along the axes of the bodies.
     from: Cow<'a, Frame>,

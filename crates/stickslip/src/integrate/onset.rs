@@ -176,7 +176,7 @@ impl Implicit {
                 to: t + part * dt,
             };
             let tried = euler.attempt(model, frame, contact, solver, trial);
-            // Nobody is told of them.
+            // They are not reported.
             solver.seen.clear();
             let tried = tried.map(|accepted| {
                 let (to, u) = (trial.to, &accepted.state.u);

@@ -156,7 +156,7 @@ impl<'a> InertialFrame<'a> {
         model.corotations.go_on(&start.u, &start.v, dt, u);
     }
 
-    /// Lets the points of rigid bodies that nothing holds have the velocities that Newmark's relations give their bodies.
+    /// Lets the points of unconstrained rigid bodies have the velocities that Newmark's relations give their bodies.
     pub fn rate(
         &self,
         model: &Model,

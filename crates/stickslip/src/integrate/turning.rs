@@ -30,7 +30,7 @@ impl QuasiStatic {
     ) -> Result<Accepted, StepFailure> {
         let mut u = frame.state.u.clone();
         for passes in 1.. {
-            // Springs that follow loose bodies are along the axes of space.
+            // Springs that follow unconstrained bodies are along the axes of space.
             let turns = match solver.floating.anchored() {
                 true => model.corotations.turns(&vec![0.0; u.len()]),
                 false => model.corotations.turns(&u),

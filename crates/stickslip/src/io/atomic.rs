@@ -33,7 +33,7 @@ pub(crate) fn meant_by(name: &str) -> Option<&str> {
     number.then_some(name)
 }
 
-/// Removes what processes left aside that were killed while they wrote this file. Only for who knows that nobody else is writing it.
+/// Removes what processes left aside that were killed while they wrote this file. Only where no other process is writing it.
 ///
 /// # Errors
 /// [`Error::Io`] if the folder cannot be read, or what was left cannot be removed.

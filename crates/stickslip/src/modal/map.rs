@@ -24,7 +24,7 @@ use crate::model::modal::{MapOver, MapPlan};
 /// Rounds in which what modes leave open is added, at most.
 const ROUNDS: usize = 40;
 
-/// Estimate of what modes leave open in the equations of all dofs that is good enough. Eigenvalues are better by what left vectors, of which the space knows nothing,
+/// Estimate of what modes leave open in the equations of all dofs that is good enough. Eigenvalues are better by what left vectors, which the space does not contain,
 /// have beside it.
 const GOOD: f64 = 1e-6;
 

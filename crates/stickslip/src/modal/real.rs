@@ -153,7 +153,7 @@ fn notes(linear: &Linear, found: &RealModes, shifted: &Shifted) -> Vec<String> {
     let [_, steady, others] = linear.points;
     if steady + others > 0 {
         notes.push(format!(
-            "{} points slide: they have no stiffness along the surface, and real modes know nothing of their friction",
+            "{} points slide: they have no stiffness along the surface, and friction is ignored in real modes",
             steady + others
         ));
     }

@@ -114,7 +114,7 @@ impl<'a> Shifted<'a> {
     }
 }
 
-/// Whether the lowest frequency with a factored stiffness is more than rounding, by inverse iteration: what nothing holds outgrows all else within two solutions.
+/// Whether the lowest frequency with a factored stiffness is more than rounding, by inverse iteration: an unconstrained motion outgrows all else within two solutions.
 fn holds(linear: &Linear, factor: &Factor) -> bool {
     let mut seed = 0x5eed;
     let mut x: Vec<f64> = (0..linear.size()).map(|_| noise(&mut seed)).collect();

@@ -54,7 +54,7 @@ pub struct EnergyLedger {
     /// The part of both that the trapezoidal rule misses in quasi-static increments: their forces do not grow in proportion where contact opens,
     /// closes or begins to slide within an increment. It is found point by point, from pressure over gap and shear over slip.
     pub path: f64,
-    /// By how much `friction` may be off at most in quasi-static increments, as nobody knows when within them points began to slide. It shows in
+    /// By how much `friction` may be off at most in quasi-static increments, as it is not known when within them points began to slide. It shows in
     /// no balance; smaller increments make it smaller.
     pub uncertain: f64,
     /// What next entries count from.

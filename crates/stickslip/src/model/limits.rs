@@ -85,7 +85,7 @@ pub struct Limits {
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub rotation: f64,
     /// What small rotations leave out of the gap, over the elastic approach: a body that turns by `θ` misses `½ θ × (θ × r)` at the distance `r` from where supports hold it,
-    /// along the normals and in the mean over what presses. In a direction in which nothing holds a body it goes along, and only what differs from point to point counts. In motion the
+    /// along the normals and in the mean over what presses. In an unconstrained direction a body goes along, and only what differs from point to point counts. In motion the
     /// largest so far of both are compared. Bodies that turn in frames miss nothing.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub rotation_to_approach: f64,

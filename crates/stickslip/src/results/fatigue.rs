@@ -42,7 +42,7 @@ pub(crate) struct Watched {
     index: HashMap<usize, usize>,
 }
 
-/// What is looked at; `None` where nobody asks.
+/// What is looked at; `None` where it is not asked for.
 pub(crate) fn watched(model: &Model, contact: &Contact) -> Option<Watched> {
     if model.reports.output.fatigue.is_empty() {
         return None;
@@ -118,7 +118,7 @@ fn compliance(stiffness: &Compliance) -> Compliance {
 impl Lot {
     fn new(body: usize, b: &Body, wanted: impl Fn(usize) -> bool) -> Self {
         let parts = b.elastic.parts();
-        // Where materials meet the first has the word.
+        // Where materials meet the first decides.
         let mut part_of = HashMap::new();
         for (i, part) in parts.iter().enumerate() {
             for &p in &b.elastic.mesh().blocks[part.block].connectivity {

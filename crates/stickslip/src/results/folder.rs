@@ -38,7 +38,7 @@ pub(crate) struct Folder {
     pub directory: PathBuf,
     /// What the user should know of what was there.
     pub notes: Vec<String>,
-    /// Nobody holds it when the run has ended.
+    /// It is free when the run has ended.
     lock: Option<Owner>,
 }
 
@@ -209,7 +209,7 @@ impl Folder {
     }
 }
 
-/// A folder of results that nobody else writes into until this is dropped. Where nothing came of it the folder is then as it was.
+/// A folder of results that no other process writes into until this is dropped. Where nothing came of it the folder is then as it was.
 #[derive(Debug)]
 pub struct FolderClaim {
     directory: PathBuf,

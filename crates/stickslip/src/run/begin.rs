@@ -57,7 +57,7 @@ pub(super) fn begin_step(run: &mut Run, step: usize) -> Result<(), Error> {
         return begin_static(run);
     };
     solver.condenser.drop_at_rest();
-    // What keeps loose bodies in place at rest has no part in motion, where their masses do.
+    // What keeps unconstrained bodies in place at rest has no part in motion, where their masses do.
     solver.floating.forget_all();
     let contacts = Arc::make_mut(&mut frame.contacts);
     contact.use_springs(contacts, false, |energy| frame.ledger.initial += energy);

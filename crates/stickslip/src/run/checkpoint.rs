@@ -52,7 +52,7 @@ pub struct Checkpoint {
     pub(super) position: Position,
     /// Increments that wait for their interiors.
     pub(super) pending: Vec<Pending>,
-    /// Those whose interiors are known and nobody has been told of.
+    /// Those whose interiors are known and that have not been reported.
     pub(super) recovered: Option<VecDeque<Pending>>,
     pub(super) summary: Summary,
     pub(super) watches: Vec<Watch>,

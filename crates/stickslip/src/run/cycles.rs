@@ -8,7 +8,7 @@
 //! Where nothing wears, what friction keeps settles within some cycles, and cycles change ever less: once all that is to come, as a geometric series, is no more than the error, one stands for all that are
 //! left, and is taken back if it shows that they have changed by more. Where that cannot be seen, they are as good as equal if the last change, over and over again, comes to no more than the error.
 //!
-//! A block begins with a checkpoint. What it finds is reported when it is over; where it stands for too many it is taken back to that checkpoint, and nobody is told.
+//! A block begins with a checkpoint. What it finds is reported when it is over; where it stands for too many it is taken back to that checkpoint, and is not reported.
 
 use super::checkpoint::Checkpoint;
 use super::cycle_block::CycleBlock;

@@ -32,7 +32,7 @@ const RESOLVED: f64 = 1.0;
 /// The power of the increment with which its error has to fall for halving to help: errors of the first power add up to the same, however short increments are.
 const HELPS: f64 = 1.5;
 
-/// Halvings in a row that did not help, after which they are in vain; fewer may be because of where in an increment a point opens or closes.
+/// Halvings in a row that did not help, after which they make no progress; fewer may be because of where in an increment a point opens or closes.
 const USELESS: i32 = 4;
 
 /// Commits an increment in motion, or takes it back as one to be made smaller.
@@ -59,8 +59,8 @@ pub(super) fn check_energy_balance(
             );
             return Err(StepFailure::new(Cause::TooFar, message));
         }
-        // Where the limit is passed already, or smaller increments are in vain, they are as long as they would be without it; and up to a length that was
-        // found too long nobody knows that one is.
+        // Where the limit is passed already, or smaller increments make no progress, they are as long as they would be without it; and up to a length that was
+        // found too long it is not known that one is.
         let long = 2.0 * length >= running.too_long * (1.0 - ROUNDED);
         accepted.hard |= long && may > 0.0 && !running.no_progress && opened > may / ORDER;
         if running.no_progress && !was_vain {
@@ -151,7 +151,7 @@ fn allowance(limit: f64, open: f64, part: f64) -> f64 {
 }
 
 /// Whether the balance opens too far over an increment of this length, and a smaller one would help. Where the limit is passed already none does; and where
-/// halving makes the error no smaller than by half, time after time, many small increments come to no less than one: they are in vain until one opens the
+/// halving makes the error no smaller than by half, time after time, many small increments come to no less than one: they make no progress until one opens the
 /// balance by no more than it may. What opens or closes on the way may spoil single ones, and increments that do not resolve how masses swing on the
 /// springs of contact are all alike.
 fn is_to_halve(
@@ -199,7 +199,7 @@ mod tests {
         assert!(allowance(limit, 1.1, 0.5) < 0.0);
     }
 
-    /// How often an increment is halved that opens the balance by this power of its length, a thousand times as much as it may at first, and whether it was in vain.
+    /// How often an increment is halved that opens the balance by this power of its length, a thousand times as much as it may at first, and whether it made no progress.
     fn halved(power: i32) -> (i32, bool) {
         let sizes = crate::time::Increments {
             initial: 1.0,

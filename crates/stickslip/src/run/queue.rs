@@ -11,7 +11,7 @@ use crate::solve::condenser::Candidates;
 use crate::system::StepFailure;
 use crate::time::Trial;
 
-/// An accepted increment that nobody has been told of.
+/// An accepted increment that has not been reported.
 #[derive(Clone, crate::keep::Keep)]
 pub(crate) struct Pending {
     pub trial: Trial,
@@ -22,7 +22,7 @@ pub(crate) struct Pending {
     /// Whether fields, and a row of the history, are due.
     pub fields: bool,
     pub row: bool,
-    /// Newton iterations nobody has been told of.
+    /// Newton iterations that have not been reported.
     pub(super) seen: Vec<Progress>,
     /// What interfaces and couplings knew after it; `None` if it is reported at once.
     pub(super) after: Option<Arc<ContactMemory>>,

@@ -75,7 +75,7 @@ pub(super) fn go_back_to(run: &mut Run, checkpoint: Checkpoint) -> Result<(), Er
         loops,
         working,
     } = checkpoint;
-    // Of increments that wait the frame knows nothing yet.
+    // Increments that wait are not in the frame yet.
     let waiting = pending.last().is_some_and(|p| p.found.is_some());
     let condensed = working.solver.condensed_displacements();
     let u = match condensed {

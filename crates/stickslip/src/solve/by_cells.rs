@@ -1,4 +1,4 @@
-//! The stiffness of a model that nobody keeps.
+//! The stiffness of a model whose entries are not kept.
 
 use std::ops::Range;
 use std::sync::OnceLock;

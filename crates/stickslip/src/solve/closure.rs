@@ -1,4 +1,4 @@
-//! Moves loose bodies, as rigid ones, the way their loads push them until they touch.
+//! Moves unconstrained bodies, as rigid ones, the way their loads push them until they touch.
 
 use crate::contact::interface::{Conditions, meeting};
 use crate::math::{Vec3, add, add_scaled, dot, norm, scale};
@@ -10,13 +10,13 @@ use crate::model::rigid::held::HELD;
 use crate::model::rigid::null_space_below;
 use crate::time::Trial;
 
-/// Where loose bodies come to touch.
+/// Where unconstrained bodies come to touch.
 pub(crate) struct Closure {
     /// Displacements there.
     pub u: Vec<f64>,
-    /// How far each loose body has moved `[m]`, as the largest displacement.
+    /// How far each unconstrained body has moved `[m]`, as the largest displacement.
     pub moved: Vec<f64>,
-    /// Loose bodies that their loads push away from everything.
+    /// Unconstrained bodies that their loads push away from everything.
     pub unbalanced: Vec<usize>,
 }
 

@@ -23,7 +23,7 @@ pub(crate) struct Floating {
     pub(super) places: Vec<Vec<usize>>,
     /// Contact alone was found not to be enough in this step: the anchors stay.
     pub(super) stay: bool,
-    /// Nothing holds the bodies: they have been followed in vain.
+    /// The bodies are unconstrained: they have been followed without coming to rest.
     pub(super) no_progress: bool,
     /// How often the bodies were moved as rigid ones in this increment.
     pub(super) moved: usize,
@@ -64,7 +64,7 @@ const MOST_MOVED: usize = 6;
 /// How often anchors are laid anew, firmer.
 const MOST_FIRMER: usize = 2;
 
-/// How much further a loose body may go than the gaps it has to close and what moves it do: it may turn about a point near what pushes it.
+/// How much further an unconstrained body may go than the gaps it has to close and what moves it do: it may turn about a point near what pushes it.
 const LEVER: f64 = 10.0;
 
 impl Floating {
@@ -132,7 +132,7 @@ impl Floating {
 }
 
 impl Floating {
-    /// Whether a failure may come from bodies that nothing holds yet, and that have not been anchored.
+    /// Whether unconstrained motions that are not stabilised yet may explain a failure.
     pub fn may_follow(&self, step: &Step, failure: &StepFailure) -> bool {
         let floating = self;
         step.dynamic.is_none()

@@ -101,7 +101,7 @@ impl Solver {
         }
         let contacts = self.contacts(frame);
         let untouched = |free: &FreeBody| {
-            // A tie is no contact that holds: it joins loose bodies to each other.
+            // A tie is no contact that holds: it joins unconstrained bodies to each other.
             let mut all = contact.views_of(contacts).filter(|i| !i.laws.tied);
             all.all(|i| !look::touched(i) || !i.nodes.iter().any(|&n| free.has(model, n)))
         };

@@ -14,10 +14,10 @@
 //!   carry nothing. A motion that nothing resists and nothing drives stays where it is. Where supports carry the body in an increment, its anchors begin where they
 //!   carry it (`carried.rs`): the springs are for the other motions.
 //! - A long way with the anchors is made without strain as well: the rigid part of it changes the last state, and the increment is computed once more.
-//!   A body that does not come to rest in a hundred rounds is reported like one that nothing holds.
+//!   A body that does not come to rest in a hundred rounds is reported like an unconstrained one.
 //! - *Release* (`released.rs`). Where the load of a body goes, every place without contact is one of equilibrium, and Newton's method would end in one
 //!   by chance: the body is anchored beforehand, and stays where it was.
-//! - *Bounds*. In an increment a loose body goes no further than ten times the gaps there are, what is prescribed and what it is strained, and one cell; beyond
+//! - *Bounds*. In an increment an unconstrained body goes no further than ten times the gaps there are, what is prescribed and what it is strained, and one cell; beyond
 //!   that it was thrown, and the increment is cut. What not even contact could hold (`model/rigid/held.rs`) is refused when a step begins, with what drives it
 //!   (`model/rigid/drivers.rs`).
 

@@ -44,7 +44,7 @@ pub(crate) struct Solver {
     pub conditions: Vec<Conditions>,
     /// Bodies that only contact can hold.
     pub floating: Floating,
-    /// Iterations that nobody has been told of.
+    /// Iterations that have not been reported.
     pub seen: Seen,
     /// What a user should know.
     pub log: Log,
@@ -56,7 +56,7 @@ const CELLS: u64 = u64::MAX;
 /// What the solver has to say.
 #[derive(Debug, Default)]
 pub(crate) struct Log {
-    /// Notes that nobody has been told of.
+    /// Notes that have not been reported.
     pub notes: Vec<String>,
     /// How systems are solved.
     pub method: &'static str,

@@ -28,7 +28,7 @@ pub enum Work<'a> {
     Recovering(usize),
     /// Modes are looked for.
     Modes,
-    /// Bodies that nothing holds are moved until they touch.
+    /// Unconstrained bodies are moved until they touch.
     Following,
 }
 

@@ -1,4 +1,4 @@
-//! What slides over a pin wears while it passes, and the pin all the time: depths of obstacles that move and of primaries whose matter goes by, against closed forms.
+//! What slides over a pin wears while it passes, and the pin all the time: depths of obstacles that move and of primaries whose material moves past, against closed forms.
 
 use crate::restart;
 use crate::support;

@@ -52,7 +52,7 @@ const CYCLES: usize = 1000;
 /// Way of the flat in a cycle.
 const WAY: f64 = 0.4;
 
-/// A flat that goes to and fro on a layer under a constant load, without friction. The contact is a bed of springs so soft that both are rigid on it (a Winkler bed), and the surface of the
+/// A flat that goes back and forth on a layer under a constant load, without friction. The contact is a bed of springs so soft that both are rigid on it (a Winkler bed), and the surface of the
 /// layer is a wave, as a gap alone.
 fn bed(jump: &str, more: &str) -> Simulation {
     let k = DECADES / (BED * WAY * CYCLES as f64);
@@ -126,7 +126,7 @@ fn jumps_keep_to_the_error_that_is_asked_for() {
     assert!(found[1].0 < found[0].0, "{found:?}");
 }
 
-/// A punch that goes to and fro on a layer, with friction: both surfaces wear, the corners first.
+/// A punch that goes back and forth on a layer, with friction: both surfaces wear, the corners first.
 fn punch(method: &str, cycles: &str) -> String {
     format!(
         r#"format = 1
@@ -218,7 +218,7 @@ fn graded(half: f64, fine: f64, far: f64) -> Vec<f64> {
     all
 }
 
-/// A cylinder that is pressed on a flat by a constant force and pushed to and fro by another, with cells of `size` where they touch.
+/// A cylinder that is pressed on a flat by a constant force and pushed back and forth by another, with cells of `size` where they touch.
 pub fn cylinder(size: f64, cycles: &str, increments: usize, wear: &str) -> Simulation {
     let x = graded(0.15, size, 6.0);
     let depth = graded(0.04, size, 6.0);
@@ -295,7 +295,7 @@ fn a_loop_of_gross_slip_is_a_box() {
     assert_eq!(cycles.last("joint.CONDITION"), 2.0);
     let ratio = cycles.last("joint.RATIO");
     assert!((0.8..1.0).contains(&ratio), "{ratio}");
-    // Friction times the load; twice the stroke to and fro.
+    // Friction times the load; twice the stroke back and forth.
     let force = cycles.last("joint.FT");
     assert!((force / 3e-4 - 1.0).abs() < 1e-3, "{force}");
     let dissipated: f64 = cycles.column("joint.ED").iter().sum();
@@ -425,7 +425,7 @@ impl Random {
     }
 }
 
-/// A block that is rubbed to and fro on a floor or on another block, of random size, law, load, stroke and wear.
+/// A block that is rubbed back and forth on a floor or on another block, of random size, law, load, stroke and wear.
 fn rubbed(random: &mut Random, jump: &str) -> String {
     // So low that friction does not tip it: what rocks comes down one way or the other by chance, cycle by cycle.
     let width = random.between(0.3, 1.0);

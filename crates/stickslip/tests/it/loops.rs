@@ -76,7 +76,7 @@ fn the_shear_of_a_loop_is_that_of_cattaneo_and_mindlin() {
     }
 }
 
-/// A ball on a block of the same material, as in the example, to and fro.
+/// A ball on a block of the same material, as in the example, back and forth.
 fn ball(cycles: &str) -> Cycles {
     let case = include_str!("../../../../examples/fretting-sphere/case.toml");
     let (model, _) = case

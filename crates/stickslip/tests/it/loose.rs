@@ -943,7 +943,7 @@ step = [{ pretension.jack.force = -1e6, increments.fixed = 2 }]
     assert!((pressed / 1e6 - 1.0).abs() < 1e-6, "{pressed:e}");
 }
 
-/// A cap that is glued to a loose block which enters what it lies on, as meshed: both are one loose body.
+/// A cap that is glued to a loose block which enters what it lies on, as meshed: both are one unconstrained body.
 #[test]
 fn bodies_that_are_tied_are_followed_as_one() {
     let glued = |y: f64| {

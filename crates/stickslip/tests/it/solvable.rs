@@ -70,7 +70,7 @@ step = [{ increments.fixed = 1 }]
     assert!((largest / mean - 1.0).abs() < 1e-6, "{largest} of {mean}");
 }
 
-/// A block that a support drags to and fro on a plane under pressure, all of which slides: it comes along however long the increments are, and rests on the plane.
+/// A block that a support drags back and forth on a plane under pressure, all of which slides: it comes along however long the increments are, and rests on the plane.
 #[test]
 fn a_block_that_is_rubbed_to_and_fro_comes_along_in_increments_of_any_length() {
     for increments in [4, 8, 12, 16] {

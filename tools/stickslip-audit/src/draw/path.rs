@@ -48,7 +48,7 @@ const PATHS: [(&str, Rows); 6] = [
         ],
     ),
     (
-        "press, to and fro",
+        "press, back and forth",
         &[
             [0., 0., 0., 0.],
             [1., 1., 0., 0.],
@@ -244,7 +244,7 @@ fn push(random: &mut Random, text: &mut String, upper: &Body, drive: &Drive) -> 
         text,
         "[amplitude]\npush.table = [[2, 0], [3, 1], [4, -1]]\n"
     );
-    // Without friction nothing holds the block sideways.
+    // Without friction the block is unconstrained sideways.
     let free = drive.mu == 0.0;
     let slipping = if free { ", \"aside\"" } else { "" };
     if free {

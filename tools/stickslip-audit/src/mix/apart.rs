@@ -102,7 +102,7 @@ pub const APART: &[(&str, &str, &str)] = &[
     (
         "symmetry",
         "cycles",
-        "What is symmetric does not slide to and fro.",
+        "What is symmetric does not slide back and forth.",
     ),
     (
         "axisymmetric",
@@ -311,7 +311,11 @@ pub const APART: &[(&str, &str, &str)] = &[
         "complex-modes",
         "Multipliers of both sides are not determined.",
     ),
-    ("cycles", "loose", "A loose body is not driven to and fro."),
+    (
+        "cycles",
+        "loose",
+        "An unconstrained body is not driven back and forth.",
+    ),
     (
         "cycles",
         "distributing-held",
@@ -326,7 +330,7 @@ pub const APART: &[(&str, &str, &str)] = &[
     (
         "cycles",
         "axisymmetric",
-        "What is around an axis does not slide to and fro.",
+        "What is around an axis does not slide back and forth.",
     ),
     ("bolt", "tied-cap", "The cap of the bolt is in its place."),
     ("bolt", "third-body", "The cap of the bolt is in its place."),
@@ -363,7 +367,7 @@ pub const APART: &[(&str, &str, &str)] = &[
     (
         "third-body",
         "jack",
-        "A cut in a loose body draws nothing together.",
+        "A cut in an unconstrained body draws nothing together.",
     ),
     (
         "third-body",
@@ -420,18 +424,18 @@ pub const APART: &[(&str, &str, &str)] = &[
     (
         "loose",
         "complex-modes",
-        "Steady sliding drags a loose body away.",
+        "Steady sliding drags an unconstrained body away.",
     ),
-    ("loose", "belt", "A belt drags a loose body away."),
+    ("loose", "belt", "A belt drags an unconstrained body away."),
     (
         "loose",
         "side-load",
-        "Friction holds a loose body, and what presses it may be less than what pushes it aside.",
+        "Friction holds an unconstrained body, and what presses it may be less than what pushes it aside.",
     ),
     (
         "loose",
         "centrifugal",
-        "Friction holds a loose body, and what presses it may be less than what pushes it aside.",
+        "Friction holds an unconstrained body, and what presses it may be less than what pushes it aside.",
     ),
     (
         "let-go",
@@ -447,7 +451,7 @@ pub const APART: &[(&str, &str, &str)] = &[
     (
         "loose",
         "third-body",
-        "Two loose bodies on each other roll.",
+        "Two unconstrained bodies on each other roll.",
     ),
     (
         "spring-across",
@@ -483,7 +487,7 @@ pub const APART: &[(&str, &str, &str)] = &[
     (
         "third-body",
         "belt",
-        "A loose body between two equal frictions is at its limit.",
+        "An unconstrained body between two equal frictions is at its limit.",
     ),
     (
         "bolt",

@@ -141,7 +141,7 @@ pub const FEATURES: &[Feature] = &[
         &["press-and-slide", "press-and-release"],
         |s, r| {
             let mu = r.between(0.05, 0.5);
-            // Friction has to hold a loose body as it did, against a push of a twentieth of what presses it.
+            // Friction has to hold an unconstrained body as it did, against a push of a twentieth of what presses it.
             let mu = if s.has("loose") { mu.max(0.1) } else { mu };
             s.steps[1].keys.push(format!(
                 "change.joint = {{ friction.coulomb = {{ mu = {mu} }} }}"

@@ -191,7 +191,7 @@ mod tests {
     fn a_finding_says_more_than_a_log() {
         let said = "a note\nerror: step 1 failed\nhelp: no";
         assert_eq!(sentence(&json!({}), said), "error: step 1 failed");
-        let summary = json!({ "findings": [{ "message": "nothing holds the block" }] });
-        assert_eq!(sentence(&summary, said), "nothing holds the block");
+        let summary = json!({ "findings": [{ "message": "the block is unconstrained" }] });
+        assert_eq!(sentence(&summary, said), "the block is unconstrained");
     }
 }

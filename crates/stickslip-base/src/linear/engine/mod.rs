@@ -4,7 +4,7 @@
 //! dofs here, and keeps an [`Interior`], which reduces forces and finds displacements, for many columns at once. Where the factor is, in this process or
 //! in others, its user does not know: nothing but vectors and the Schur complement passes through here, and not even that where it is too large: then its inverse
 //! stays where it is, too ([`DistributedOperator`](super::DistributedOperator)), and there are products with it. The matrix comes as a [`Matrix`](super::Matrix), which an engine takes entry by entry
-//! where nobody keeps it, or cell by cell, to compute them where it is ([`Cells`](super::Cells)).
+//! where it is not kept, or cell by cell, to compute them where it is ([`Cells`](super::Cells)).
 
 mod bare;
 mod builtin;

@@ -15,7 +15,7 @@ const TOGETHER: usize = 8;
 /// A pivot counts as zero below this many roundings (2.2e-16) per free dof, relative to its diagonal \[1\].
 ///
 /// Where the exact pivot is zero, rounding leaves up to one of these per dof, since on a regular mesh all cells round
-/// the same way (measured on bodies that nothing holds: 0.1 to 0.6, at 264 to 59 049 dofs). A sound structure that
+/// the same way (measured on unconstrained bodies: 0.1 to 0.6, at 264 to 59 049 dofs). A sound structure that
 /// keeps less would be solved with hardly a correct digit; the softest, a cantilever one element thick, gets there
 /// at about two thousand elements of length.
 pub const SINGULAR_ROUNDINGS: f64 = 8.0;

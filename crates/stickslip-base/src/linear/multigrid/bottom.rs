@@ -1,7 +1,7 @@
 use super::blocks::{Block, Rows, convert};
 use crate::math::vector::dot_in_fours;
 
-/// Pivots below this part of their diagonal count as zero \[1\]: a body that nothing holds.
+/// Pivots below this part of their diagonal count as zero \[1\]: an unconstrained body.
 const SINGULAR: f64 = 1e-11;
 
 /// The coarsest operator, factored. Directions without stiffness are left out: the solution is zero along them.

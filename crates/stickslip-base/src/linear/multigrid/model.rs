@@ -173,7 +173,7 @@ impl Model {
     }
 
     /// Contact tangents `(3, 3)` of all pairs for the status of each and a stiffness of `factor E / h` an area: the
-    /// exact ones and symmetric stand-ins.
+    /// exact ones and symmetric approximations.
     pub fn tangents(
         &self,
         pairs: &[Pair],

@@ -8,7 +8,7 @@ use super::written::{MM, MPA, Values, Written};
 use crate::failure::Failure;
 use crate::style::digits;
 
-/// A cylinder pressed on a flat that is driven to and fro: both wear after Archard, over many cycles.
+/// A cylinder pressed on a flat that is driven back and forth: both wear after Archard, over many cycles.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Radius of the cylinder.

@@ -265,7 +265,7 @@ fn file_of_run(folder: &Path, run: usize) -> PathBuf {
     folder.join(format!("{:04}.json", run + 1))
 }
 
-/// Removes what has such names from a folder of a shard, in which nobody else writes.
+/// Removes what has such names from a folder of a shard, in which no other process writes.
 fn remove(folder: &Path, names: impl Fn(&str) -> bool) -> Result<(), Error> {
     for entry in fs::read_dir(folder).map_err(|e| Error::io(folder, e))? {
         let entry = entry.map_err(|e| Error::io(folder, e))?;
@@ -277,7 +277,7 @@ fn remove(folder: &Path, names: impl Fn(&str) -> bool) -> Result<(), Error> {
 }
 
 impl Shard {
-    /// A new one, or one that goes on. Nobody else may be at it.
+    /// A new one, or one that goes on. No other process may work on it.
     ///
     /// # Errors
     /// [`Error::Io`]; within, what it differs in from one that was begun in this folder.

@@ -8,7 +8,8 @@ const FLUID: &str = "it is about fluids, and bodies are solid";
 const SUBMODEL: &str =
     "results of other runs are not read: prescribe the displacements of the cut by *BOUNDARY";
 const CYCLIC: &str = "cyclic symmetry is not computed: model the whole body";
-const STILL: &str = "supports stand still in steady vibrations: let forces shake";
+const STILL: &str =
+    "base excitation is not supported in steady-state dynamics: use harmonic forces";
 const DIRECT: &str = "the answer is as good as the residual that is told of each frequency, however it is found: leave it out, and write INTERVAL=RANGE for frequencies without regard to modes";
 const FOLLOWER: &str = "forces keep their direction: leave FOLLOWER out";
 const FILES: &str = "results of a heat analysis are not read from a file: write the temperature of each node on data lines";

@@ -130,7 +130,7 @@ impl StatusHistory {
         self.facets[0] = facet;
     }
 
-    /// Whether it keeps going to and fro between facets.
+    /// Whether it keeps going back and forth between facets.
     pub fn oscillates(&self) -> bool {
         self.returns >= RETURNS
     }

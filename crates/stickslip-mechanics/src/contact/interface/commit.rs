@@ -23,7 +23,7 @@ use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
 use crate::system::Stage;
 
-/// Part of the largest force of a point by which multipliers may differ from what the laws answer, and these have the word.
+/// Part of the largest force of a point by which multipliers may differ from what the laws answer, and these decide.
 const SAME: f64 = 1e-9;
 
 /// What the committed history of a point becomes, and what happened on the way, per area.
@@ -394,7 +394,7 @@ pub(super) fn sheared(interface: ContactView, shear: Vec3, stiffness: f64) -> f6
 /// In motion by the trapezoidal rule, like the work of the loads. A quasi-static increment may be as long as one likes, and shear may turn
 /// round in it, or rise to the limit and stay there. Then the point slides along its shear traction all the time that it slides,
 /// at the limit: `∫ limit |ds|`. The limit is taken as growing in proportion to the way, from its value at the start where the
-/// point slid already, and from half-way where it stuck, as nobody knows when it began to slide.
+/// point slid already, and from half-way where it stuck, as it is not known when it began to slide.
 fn dissipated(
     interface: InterfaceInput,
     h: &PointHistory,

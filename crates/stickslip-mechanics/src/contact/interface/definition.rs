@@ -47,16 +47,16 @@ pub struct InterfaceMesh {
     pub alike: Vec<Vec<usize>>,
     /// The secondary as faces, where gaps are weighted over them; `None` where they are those of the points themselves.
     pub mortar: Option<Mortar>,
-    /// The faces of the secondary, to be looked at between points; empty where nobody asks.
+    /// The faces of the secondary, to be looked at between points; empty where it is not asked for.
     pub skin: Vec<Skin>,
-    /// For each of the points the others beside it, see [`neighbours`](crate::contact::look::neighbours); empty where nobody asks how smooth the pressure is.
+    /// For each of the points the others beside it, see [`neighbours`](crate::contact::look::neighbours); empty where it is not asked how smooth the pressure is.
     pub neighbours: Vec<Vec<usize>>,
     /// What they touch.
     pub primary: Primary,
     /// How what is worn off the primary is divided among its nodes; empty where nothing wears.
     pub opposite_wear: OppositeWear,
     /// The axes along which each node is prescribed in all steps, or follows what is; over an obstacle those alone along which it follows: a support leaves no multiplier there.
-    /// Empty where nobody has looked.
+    /// Empty where it has not been determined.
     pub clamped: Vec<[bool; 3]>,
     /// How thick the primary is behind its facets.
     pub walls: Walls,

@@ -466,7 +466,7 @@ fn a_point_on_a_drum_that_turns_carries_its_limit_against_its_slip() {
                         0.99
                     };
                     assert!(cosine > skew, "{what} {angle}: {cosine}");
-                    // Shear acts where the shoe is, and the drum goes by there.
+                    // Shear acts where the shoe is, and the drum moves past there.
                     if what.contains("mortar") {
                         let arc = norm(e.moved) / (SHOE * angle.abs());
                         assert!((arc - 1.0).abs() < 0.0025, "{what} {angle}: {arc}");

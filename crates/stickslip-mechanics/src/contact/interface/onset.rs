@@ -89,7 +89,7 @@ pub fn presses_light_points(interface: &mut InterfaceForce, stage: &Stage) -> bo
     let mut points = interface.cache.trial.points.iter().zip(masses);
     let presses =
         points.any(|(e, (mass, point))| *mass == 0.0 && e.over && e.gap < -TOUCHING * point.size);
-    // Nobody is told of it.
+    // It is not reported.
     interface.cache.trial.points.clear();
     presses
 }

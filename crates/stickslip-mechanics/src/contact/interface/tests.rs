@@ -149,7 +149,7 @@ fn a_course_shows_changes_only() {
     assert_eq!(last, [Status::Open, Status::Stick, Status::Open]);
 }
 
-/// A point that slides over one facet after the other does not go to and fro, one that comes back to a facet again and again does.
+/// A point that slides over one facet after the other does not go back and forth, one that comes back to a facet again and again does.
 #[test]
 fn a_point_that_comes_back_goes_to_and_fro() {
     let visits = |facets: &[usize]| {
@@ -302,7 +302,7 @@ fn the_tangent_is_that_of_the_force() {
                 );
                 assert!((difference - p).abs() < 1e-5 * largest, "{what}");
             }
-            // The stand-in changes nothing else.
+            // The approximation changes nothing else.
             let (_, full, curvature) = force(&State { u: start, ..at }, true, true);
             for (a, b) in blocks.iter().zip(full.iter().chain(&curvature)) {
                 assert!(!b.surrogate.is_empty());

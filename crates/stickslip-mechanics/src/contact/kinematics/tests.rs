@@ -492,7 +492,7 @@ fn turning(centre: Vec3, axis: Vec3, angle: f64) -> Motion {
     }
 }
 
-/// A surface of revolution that turns under a point at rest goes by with one velocity: slip is the arc against it, for turns of any size.
+/// A surface of revolution that turns under a point at rest moves past with one velocity: slip is the arc against it, for turns of any size.
 #[test]
 fn slip_over_what_turns_is_the_arc() {
     use crate::contact::obstacle::{Cylinder, Plane, Sphere};

@@ -145,7 +145,7 @@ fn logarithm(a: &Mat3, b: &Mat3) -> Vec3 {
 /// The way of a point over a surface `[m]` that turns under it: seen by the point, which turns by `own`, the surface has turned by `other` and what lies
 /// under the point now has come by `-moved`.
 ///
-/// That is a motion with one velocity about one axis. The velocity of what goes by under the point is
+/// That is a motion with one velocity about one axis. The velocity of what moves past under the point is
 /// `v = d + φ × d / 2 + k φ × (φ × d)` with the relative rotation vector `φ` and `k = (1 - θ/2 cot θ/2) / θ²`, so that the way has the length of the
 /// arc and the direction in which it ends. Two that turn alike have `φ = 0`.
 pub(super) fn slid(moved: Vec3, own: &Mat3, other: &Mat3) -> Vec3 {

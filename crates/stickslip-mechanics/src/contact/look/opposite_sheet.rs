@@ -23,7 +23,7 @@ fn fields(all: Vec<(&str, usize, Vec<f64>)>) -> Fields {
     }
 }
 
-/// The surface opposite the contact points with U, CDISS and CWEAR, where something wears; of an obstacle, and of a primary whose matter goes by, the places that points have worn with CWEAR, in
+/// The surface opposite the contact points with U, CDISS and CWEAR, where something wears; of an obstacle, and of a primary whose material moves past, the places that points have worn with CWEAR, in
 /// coordinates of the matter, where it was at first. `None` of an obstacle that does not wear. `u`: displacements.
 pub fn opposite_sheet(contact: ContactView, u: &[f64]) -> Option<Sheet> {
     match &contact.opposite_wear.track {

@@ -14,7 +14,7 @@ pub struct Resolution {
     pub resolved: f64,
 }
 
-/// How finely contact is resolved at the last committed state; `None` where nothing is in contact or nobody knows which points lie
+/// How finely contact is resolved at the last committed state; `None` where nothing is in contact or it is not known which points lie
 /// beside each other.
 ///
 /// A patch is three points across where one of them has nothing but points in contact beside it. Surfaces in contact all over are resolved

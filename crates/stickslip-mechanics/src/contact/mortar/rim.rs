@@ -2,7 +2,7 @@
 //!
 //! Two surfaces at an angle touch at an edge. If that is an edge of the secondary, it touches a facet, and pressure acts along the normal of the primary: the gradient of the gap at fixed places.
 //! If it is an edge of the primary it touches a face, and pressure acts along the normal of the face: what the edge does by being moved along its own facet is in the cut, which
-//! the gradient at fixed places knows nothing of. Which of the two it is shows where the gap becomes smaller: there one surface ends before the other.
+//! the gradient at fixed places does not include. Which of the two it is shows where the gap becomes smaller: there one surface ends before the other.
 
 use super::face::Face;
 use super::sides::Sides;
@@ -19,7 +19,7 @@ const ANGLES: [f64; 2] = [0.05, 0.1];
 /// Part of the size of a facet by which it may miss a plane of symmetry that it ends on.
 const ON_PLANE: f64 = 1e-6;
 
-/// Facets after which nobody looks farther.
+/// Facets after which no farther ones are looked at.
 const STEPS: usize = 16;
 
 /// What lies around a place of a face and a facet opposite.

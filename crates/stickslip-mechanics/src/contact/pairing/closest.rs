@@ -15,7 +15,7 @@ const EDGE_TOLERANCE: f64 = 5e-3;
 /// How far beyond a facet, relative to its size, a point may be and stay on it while the surface is flat.
 const KEPT: f64 = 1e-3;
 
-/// How far beyond a facet, relative to its size, a point that goes to and fro in a valley may be and stay on it. Where facets turn by an angle from each
+/// How far beyond a facet, relative to its size, a point that goes back and forth in a valley may be and stay on it. Where facets turn by an angle from each
 /// to the next, the smooth surface that they stand for lies up to an eighth of it, times their size, away from them; so far the next facet is missed.
 const HELD: f64 = 0.125;
 
@@ -64,7 +64,7 @@ pub struct Previous {
     pub facet: Option<usize>,
     /// The coordinates of the projection on it; `None` where they are no guide.
     pub near: Option<[f64; 2]>,
-    /// The point has gone to and fro between facets.
+    /// The point has gone back and forth between facets.
     pub held: bool,
 }
 
@@ -132,7 +132,7 @@ impl Choice<'_> {
             }
         }
         match (best, kept, previous.facet) {
-            // Where the surface is flat the facet makes no difference: staying on it keeps Newton from going to and fro. Under a ridge it does, and
+            // Where the surface is flat the facet makes no difference: staying on it keeps Newton from going back and forth. Under a ridge it does, and
             // nearest changes where the feet on both facets still lie within them: a point that is held there would have an equilibrium on neither.
             // The point goes over the ridge when its foot does. In a valley each facet pushes it onto the other: if that takes it farther than it may go, it has
             // an equilibrium on neither, and stays on the one that it has come back to.
@@ -161,7 +161,7 @@ impl Choice<'_> {
             let mut both = [k, nearest].into_iter();
             both.all(|look| self.height(&look.p) <= above * look.size)
         };
-        // A point that is held by next to no force may be on either side of a facet, one that goes to and fro a little above it.
+        // A point that is held by next to no force may be on either side of a facet, one that goes back and forth a little above it.
         near && (cosine > 1.0 - FLAT || within(TIE)) || held && cosine > SMOOTH && within(KEPT)
     }
 
@@ -347,7 +347,7 @@ mod tests {
         );
         let corner = [[1.0, 0.5, 0.0], [0.0; 3], [-1.0, 0.5, 0.0]];
         assert_eq!(chosen(&corner, beyond(&corner, 0.05, 0.0), 0, true), 1);
-        // What goes to and fro loses nothing of what holds the others.
+        // What goes back and forth loses nothing of what holds the others.
         let next_to = beyond(&corner, 5e-4, 0.0);
         assert_eq!(
             [false, true].map(|held| chosen(&corner, next_to, 0, held)),

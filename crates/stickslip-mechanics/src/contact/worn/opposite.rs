@@ -12,7 +12,7 @@ pub struct OppositeWear {
     pub(in crate::contact) area: Vec<f64>,
     /// The two corners whose mean a node has: twice itself of a corner.
     pub(in crate::contact) ends: Vec<[usize; 2]>,
-    /// Where the depth is kept in place of nodes: of an obstacle, and where matter goes by.
+    /// Where the depth is kept in place of nodes: of an obstacle, and where material moves past.
     pub(in crate::contact) track: Option<WearTrack>,
 }
 

@@ -1,4 +1,4 @@
-//! What is worn off a primary that has no mesh to keep it on, an obstacle, or whose matter goes by under its mesh: a depth in the coordinates of that matter.
+//! What is worn off a primary that has no mesh to keep it on, an obstacle, or whose material moves past under its mesh: a depth in the coordinates of that matter.
 //!
 //! The depth is kept at places of a [`Chart`] that are about as far apart as the points of the secondary. A point lies over those beneath the faces around it, sampled so finely that an
 //! even pressure leaves an even depth; what it takes is divided among them, and the gap sees their mean with the same weights. What is taken in an increment is left along the

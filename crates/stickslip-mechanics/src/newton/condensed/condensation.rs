@@ -214,7 +214,7 @@ impl Plan {
 /// A substructure, where it comes from, and what the user should know about its file.
 type Got = (Arc<Substructure>, Source, Option<String>);
 
-/// Who makes a part that nobody has.
+/// Who makes a part that does not exist.
 enum Maker {
     /// This process, with a lease if there is a directory.
     Here(Option<Owner>),

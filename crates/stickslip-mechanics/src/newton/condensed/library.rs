@@ -159,7 +159,7 @@ impl Library {
                 Reserved::Ours(lease) => Some(lease),
                 Reserved::Theirs => None,
             };
-            // With the lease it is certain that nobody has just made it.
+            // With the lease it is certain that no other process has just made it.
             let free = lease.is_some();
             let (found, why) = match note.is_none() || free {
                 true => self.find(identity, part),

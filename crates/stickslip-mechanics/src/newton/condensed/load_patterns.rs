@@ -6,7 +6,7 @@ use crate::math::vector::{dot, norm};
 
 /// The patterns of loads and prescribed displacements met so far, swept through the factors once.
 ///
-/// Whatever acts at a time is a sum of a few patterns with amplitudes. Nobody has to say which: what earlier patterns do not make up is a new one.
+/// Whatever acts at a time is a sum of a few patterns with amplitudes. They need not be named: what earlier patterns do not make up is a new one.
 #[derive(Debug, Default)]
 pub struct LoadPatterns {
     loads: Vec<Pattern>,

@@ -319,7 +319,7 @@ fn solve_preconditioned(
         gaps,
     } = known;
     let patience = settings.krylov_patience;
-    // Where next to nothing holds a body, single precision would not see what does. A preconditioner need not be exact.
+    // Where a body is almost unconstrained, single precision would not see what does. A preconditioner need not be exact.
     let coarse = match tangent.springs.is_empty() && tangent.active.len() > SMALL {
         true => Precision::Single,
         false => Precision::Double,

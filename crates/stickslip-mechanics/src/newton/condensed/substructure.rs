@@ -50,7 +50,7 @@ pub(super) struct SweptPatterns(Mutex<Vec<([u64; 2], Arc<SweptPart>)>>);
 /// Most patterns that are kept with a factor. Each takes as much as a vector by dof.
 const MOST_SWEPT: usize = 16;
 
-/// Rigid motions of a body, or of each of its pieces, that next to nothing holds.
+/// Rigid motions of a body, or of each of its pieces, that are almost unconstrained.
 #[derive(Debug)]
 pub struct Floating {
     /// Orthonormal motions `R` at the kept dofs, one after the other.

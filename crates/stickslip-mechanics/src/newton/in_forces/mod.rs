@@ -1,12 +1,12 @@
 //! The increment as a friction problem: where no iteration in the displacements leads to equilibrium, one in the forces may.
 //!
 //! The bulk is linear, so that what points do to each other is an operator `W = B K⁻¹ Bᵀ`, and what they would do without forces a free motion `q`
-//! ([`crate::friction`]). A point that yields brings its compliance along, on the diagonal. Bodies that nothing holds but contact are held softly where they are,
+//! ([`crate::friction`]). A point that yields brings its compliance along, on the diagonal. Bodies that only contact constrains are held softly where they are,
 //! and let go again: each solution is where the next one holds them (a proximal term, as that of anchors). The laws are those of the points at the
 //! last solution, linearised; Newton's method has the last word, with the laws themselves.
 //!
 //! Its unknowns are all points that are or may come to be pressed. Where a solution for each of them costs more than another attempt would, and more than those
-//! that have already been made in vain, they are those that do not settle, and the others surround them as they are.
+//! that have already been made without progress, they are those that do not settle, and the others surround them as they are.
 
 mod account;
 mod columns;

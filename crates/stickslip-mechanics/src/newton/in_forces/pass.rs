@@ -185,7 +185,7 @@ fn choose<'p>(
         ..
     } = &*linear.attempt;
     let solver = (MOST_UNKNOWNS as f64).powi(3);
-    // As much again as has been spent in vain: that is never more than twice what the best choice would have cost.
+    // As much again as has been spent without progress: that is never more than twice what the best choice would have cost.
     let most = system.bulk.affordable(settings, solver);
     let most = most.saturating_add(*in_vain).min(MOST_UNKNOWNS);
     if touching.len() * d <= most {

@@ -2,7 +2,7 @@
 
 use crate::math::vector::dot;
 
-/// How much of a step from one solution to the next is taken, where surfaces and laws make them go to and fro or creep: Aitken's relaxation
+/// How much of a step from one solution to the next is taken, where surfaces and laws make them go back and forth or creep: Aitken's relaxation
 /// ([Küttler and Wall 2008](stickslip_base::references::kuettler_2008)), which at most doubles from step to step.
 #[derive(Debug)]
 pub(super) struct Relaxation {

@@ -41,13 +41,13 @@ macro_rules! causes {
 causes! {
     /// A body can move as a whole: neither supports, nor springs, nor contact hold it.
     FreeRigidMode = "free-rigid-mode",
-    /// Points go to and fro between open, stick and slip.
+    /// Points go back and forth between open, stick and slip.
     Chatter = "chatter",
     /// Points slide off the outer edge of the primary and come back.
     LostProjection = "lost-projection",
     /// Points slide over a large part of a facet, or over several, in one increment.
     TooLargeSlip = "too-large-slip",
-    /// The normal law has a kink between the states that the iteration goes to and fro between.
+    /// The normal law has a kink between the states that the iteration goes back and forth between.
     LawTangentJump = "law-tangent-jump",
     /// A cell is inverted or has next to no volume.
     CollapsedCell = "collapsed-cell" mistake,
@@ -139,7 +139,7 @@ causes! {
     LooseBolt = "loose-bolt" mistake,
     /// Roughness with waves that are too short for the contact points.
     UnresolvedRoughness = "unresolved-roughness",
-    /// Temperatures are given, and nobody says how warm bodies are at the start.
+    /// Temperatures are given, and the temperature at the start is not.
     StartTemperature = "start-temperature",
     /// Contact ended because what carried has left the primary over its edge.
     LeftPrimary = "left-primary",
@@ -321,7 +321,7 @@ mod tests {
 
     #[test]
     fn findings_survive_their_file() {
-        let finding = Finding::new(DoctorCause::Chatter, Severity::Warning, "to and fro")
+        let finding = Finding::new(DoctorCause::Chatter, Severity::Warning, "back and forth")
             .blame(Suspect::interface("base", "").at([1.0, 2.0, 0.0]))
             .advise("smaller increments");
         let text = serde_json::to_string(&finding).expect("plain data");

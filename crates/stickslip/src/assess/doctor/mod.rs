@@ -2,7 +2,7 @@
 //!
 //! Before the run `examine` looks at the model: motions that nothing can hold, gaps and overlaps, surfaces that do not face each other, meshes
 //! that do not go together, numbers in mixed units. In the run every attempt that fails is turned into a [`Finding`]: the cause is read from what
-//! the points of the interfaces did ([`Evidence`](crate::system::Evidence)), from motions that nothing holds, and from the stiffness at the guilty
+//! the points of the interfaces did ([`Evidence`](crate::system::Evidence)), from unconstrained motions, and from the stiffness at the guilty
 //! points. Findings of both kinds are the same type; they go into `summary.json`, and their places into `culprits.vtu`.
 //!
 //! The doctor only looks: nothing here changes a result.

@@ -1,4 +1,4 @@
-//! Motions of bodies as a whole that nothing holds, whatever is meant to hold them.
+//! Unconstrained rigid-body motions.
 
 use super::places;
 use super::surfaces::Opposite;
@@ -19,7 +19,7 @@ pub(super) type Row = Vec<(usize, f64)>;
 /// Most modes that are looked at together.
 const MOST_MODES: usize = 90;
 
-/// A motion that nothing holds.
+/// An unconstrained rigid-body motion.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct FloatingBody {
     /// The body that takes the largest part in it.

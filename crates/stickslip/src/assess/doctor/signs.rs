@@ -52,7 +52,7 @@ pub(super) fn signs(evidence: &[&Evidence]) -> Option<Finding> {
     }
     let (flips, e) = worst(&|e| e.flips as f64).filter(|w| w.0 >= CHATTER)?;
     let finding = DoctorCause::Chatter.warning(format!(
-        "points of interface {} go to and fro, the worst with {flips} changes of status ({})",
+        "points of interface {} go back and forth, the worst with {flips} changes of status ({})",
         e.interface,
         e.course.join(" → ")
     ));

@@ -74,7 +74,7 @@ pub(super) struct Piece<'a> {
     pub coordinates: Option<Array<'a>>,
     /// Point data.
     pub data: Vec<Array<'a>>,
-    /// The arrays that make the cells, or why one cannot be read: nobody may ask for it.
+    /// The arrays that make the cells, or why one cannot be read: it may not be needed.
     pub topology: Vec<Result<Array<'a>, String>>,
     /// Cell data, as far as they can be read.
     pub cell_data: Vec<Array<'a>>,

@@ -1,4 +1,4 @@
-//! What drives a motion that nothing holds: the loads, supports and obstacles behind it, by name.
+//! What drives an unconstrained motion: the loads, supports and obstacles behind it, by name.
 
 use super::super::scene::Scene;
 use super::held::{NO_PART, Unheld};

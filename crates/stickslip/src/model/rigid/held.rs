@@ -8,13 +8,13 @@ use crate::contact::interface::{Interface, Primary};
 use crate::contact::look;
 use crate::math::{Vec3, dot, symmetric_eigen};
 
-/// A motion that nothing holds: how much of each mode is in it.
+/// An unconstrained motion: how much of each mode is in it.
 pub(crate) type Unheld = Vec<f64>;
 
 /// Most modes that are looked at together.
 const MOST_MODES: usize = 120;
 
-/// Resistance to a motion, relative to the largest, up to which nothing holds it.
+/// Resistance to a motion, relative to the largest, up to which it is unconstrained.
 pub(crate) const HELD: f64 = 1e-10;
 
 /// Part of a motion below which a mode is no part of it.

@@ -1,7 +1,7 @@
 //! Rigid motion: the motions of bodies without strain, what holds them, and what pushes them.
 //!
 //! `modes.rs` has the basis. `held.rs` asks what supports, springs, couplings and contact resist, `free_bodies.rs` what they leave free, `drivers.rs` which loads and supports
-//! drive that, `anchors.rs` where supports hold a body, and `nearest.rs` which motion without strain comes nearest to what points did. All of them find what nothing holds by
+//! drive that, `anchors.rs` where supports hold a body, and `nearest.rs` which motion without strain comes nearest to what points did. All of them find unconstrained motions by
 //! [`null_space`].
 
 pub(crate) mod anchors;

@@ -246,7 +246,7 @@ impl Make<'_> {
         (points, mortar)
     }
 
-    /// How what is worn off the primary is kept, where something wears: at its nodes; of an obstacle, and where its matter goes by, on a track.
+    /// How what is worn off the primary is kept, where something wears: at its nodes; of an obstacle, and where its material moves past, on a track.
     fn opposite_wear(
         &self,
         opposite: &Primary,
@@ -410,7 +410,7 @@ fn belt(table: &Table) -> Vec<[f64; 4]> {
         .collect()
 }
 
-/// Whether the primary wears and its matter goes by, so that what is worn off it goes along.
+/// Whether the primary wears and its material moves past, so that what is worn off it goes along.
 fn goes_by(table: &Table) -> bool {
     let moves = table.primary_velocity.is_some() || table.primary_velocity_table.is_some();
     let [_, primary] = table.wear.as_dyn().fastest();

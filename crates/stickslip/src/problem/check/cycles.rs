@@ -46,7 +46,7 @@ pub(super) fn check(findings: &mut Findings, key: &[&str], problem: &Problem, sp
         let turns = motion.rotation.iter().flat_map(|r| &r.angle);
         if moves(&motion.translation) || turns.into_iter().any(|a| a[0] > start) {
             add(
-                format!("obstacle.{name} moves by a table that knows nothing of cycles"),
+                format!("obstacle.{name} moves by a table without cycles"),
                 "move the body against it, by a support with an amplitude",
             );
         }
@@ -55,9 +55,7 @@ pub(super) fn check(findings: &mut Findings, key: &[&str], problem: &Problem, sp
         let rows = interface.primary_velocity_table.as_deref();
         if rows.is_some_and(moves) {
             add(
-                format!(
-                    "the velocity of interface.{name} is from a table that knows nothing of cycles"
-                ),
+                format!("the velocity of interface.{name} is from a table without cycles"),
                 "move the body by a support with an amplitude",
             );
         }

@@ -487,7 +487,7 @@ fn wear(problem: &Problem, findings: &mut Findings, table: &[&str], interface: &
     let obstacle = problem.obstacle.get(&interface.primary);
     if interface.discretisation().as_dyn().two_sided() && obstacle.is_none() {
         add(
-            "two-sided contact has a depth for each half of the pressure, of which the other half knows nothing",
+            "two-sided contact has a depth for each half of the pressure, which the other half does not see",
             "choose another discretisation, or write wear-feedback = \"none\"",
         );
     }

@@ -122,7 +122,7 @@ impl Solver {
         let started = Instant::now();
         self.seen.tell(&Work::Condensing);
         let matrix = self.matrix(which);
-        // Asked to stop, nobody waits for others.
+        // Once asked to stop, it does not wait for others.
         let waits = || {
             self.seen.tell(&Work::Waiting);
             !self.newton.interrupted()

@@ -286,6 +286,37 @@ fn identifiers_are_words_of_the_field() {
     assert!(wrong.is_empty(), "write instead:\n{}", wrong.join("\n"));
 }
 
+/// Files under a folder whose names end so.
+fn texts(folder: &Path, ending: &str, out: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        if path.is_dir() {
+            texts(&path, ending, out);
+        } else if path.to_string_lossy().ends_with(ending) {
+            out.push(path);
+        }
+    }
+}
+
+#[test]
+fn comments_messages_and_pages_are_plain_english() {
+    let mut files = Vec::new();
+    for (_, src) in crates() {
+        texts(&src, ".rs", &mut files);
+    }
+    texts(&workspace().join("book/src"), ".md", &mut files);
+    texts(&workspace().join("examples"), "README.md", &mut files);
+    let pages = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md"];
+    files.extend(pages.map(|page| workspace().join(page)));
+    let mut wrong = Vec::new();
+    for file in files {
+        let text = std::fs::read_to_string(&file).expect("a text");
+        let found = words::refused_phrases(&text);
+        wrong.extend(found.iter().map(|f| format!("{}:{f}", file.display())));
+    }
+    assert!(wrong.is_empty(), "write instead:\n{}", wrong.join("\n"));
+}
+
 #[test]
 fn parameters_have_names() {
     let mut wrong = Vec::new();

@@ -63,3 +63,36 @@ pub fn refused(text: &str) -> Vec<String> {
     });
     found.collect()
 }
+
+/// Phrases that are refused in comments, messages and pages, and what to write instead.
+const PHRASES: &[(&str, &str)] = &[
+    ("another shear than", "differs from the friction limit"),
+    ("forces shake", "harmonic forces"),
+    ("give or take", "±"),
+    ("has the word", "decides"),
+    ("have the word", "decide"),
+    ("in vain", "without progress"),
+    ("know nothing", "do not include"),
+    ("knows nothing", "does not include"),
+    ("loose bod", "unconstrained bodies"),
+    ("matter goes by", "material moves past"),
+    ("nobody ", "no process, or is not known"),
+    ("nothing holds", "unconstrained"),
+    ("stand still in steady", "base excitation"),
+    ("stand-in", "approximation"),
+    ("to and fro", "back and forth"),
+    ("what happens is told", "messages go to"),
+];
+
+/// The refused phrases of a text: `LINE: PHRASE: INSTEAD`.
+pub fn refused_phrases(text: &str) -> Vec<String> {
+    let lines = text.lines().enumerate();
+    let found = lines.flat_map(|(line, text)| {
+        let text = text.to_lowercase();
+        let here = PHRASES
+            .iter()
+            .filter(move |(phrase, _)| text.contains(phrase));
+        here.map(move |(phrase, instead)| format!("{}: `{phrase}`: {instead}", line + 1))
+    });
+    found.collect()
+}

@@ -24,7 +24,7 @@ pub(super) struct Body {
     pub job: Arc<Job>,
     pub options: MumpsOptions,
     pub split: Split,
-    /// Whether the compliance stays with the ranks, and why if nobody has asked for it.
+    /// Whether the compliance stays with the ranks, and why if it has not been asked for.
     pub spread: bool,
     pub note: Option<String>,
 }
@@ -85,7 +85,7 @@ impl Body {
         })
     }
 
-    /// Writes the lower triangle of what is handed out as it is made, some entries for each rank. Where `unchecked`, nobody has looked yet whether another body is coupled.
+    /// Writes the lower triangle of what is handed out as it is made, some entries for each rank. Where `unchecked`, it has not been checked yet whether another body is coupled.
     fn deal_entries(
         &self,
         path: &Path,

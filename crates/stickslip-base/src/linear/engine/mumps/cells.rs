@@ -1,4 +1,4 @@
-//! Cells that are dealt to the ranks, which make the matrices of theirs themselves: nobody but this process has the whole mesh, and nobody the whole matrix.
+//! Cells that are dealt to the ranks, which make the matrices of theirs themselves: no rank has the whole mesh, and none the whole matrix.
 
 use std::io;
 use std::path::Path;

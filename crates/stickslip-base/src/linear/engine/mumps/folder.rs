@@ -11,7 +11,7 @@ const NAMED: &str = "STICKSLIP_MUMPS_DIR";
 pub(super) struct Folder(PathBuf);
 
 impl Folder {
-    /// A new one that nobody else may look into, where the environment says, or where temporary files go.
+    /// A new one that no other user may read, where the environment says, or where temporary files go.
     pub fn new() -> io::Result<Folder> {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         let count = COUNT.fetch_add(1, Ordering::Relaxed);
@@ -31,7 +31,7 @@ impl Folder {
 
     /// Takes it away.
     pub fn remove(&self) {
-        // Nobody can be told.
+        // An error here has no reader.
         let _ = std::fs::remove_dir_all(&self.0);
     }
 }

@@ -17,7 +17,7 @@ const PLAIN: MumpsOptions = MumpsOptions {
     spread: Some(false),
 };
 
-/// A matrix that nobody keeps: each entry comes in two parts, one behind all first ones.
+/// A matrix whose entries are not kept: each entry comes in two parts, one behind all first ones.
 #[derive(Debug)]
 struct Unkept(BlockCsr);
 

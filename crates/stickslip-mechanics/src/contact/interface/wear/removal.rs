@@ -3,7 +3,7 @@
 //! The secondary has a depth at each contact point. With dual functions as weights, the mean gap of a point sees the depth of that point and of no other, so that
 //! the depth of a point times its area is volume lost. The primary has a depth at its nodes, linear in between: what a point takes from it is divided among the
 //! corners of the facets that it lies over by the weights they have in its gap, over the area of each of them, and the gap takes the mean with the same
-//! weights. An obstacle has no nodes, and those of a primary are of no use where its matter goes by under the mesh: there the depth is kept on a track
+//! weights. An obstacle has no nodes, and those of a primary are of no use where its material moves past under the mesh: there the depth is kept on a track
 //! ([`WearTrack`](crate::contact::worn::WearTrack)). What is lost on one side and the other is the volume that the laws say, to rounding, wherever one slides on the other.
 //!
 //! Within an increment the depth of both follows from the pressure of the point at its end, most often in proportion: a compliance in series with the contact

@@ -151,7 +151,7 @@ pub(super) fn approach(
                     continue;
                 }
                 out.both = false;
-                // A loose body: it flies, or others push it.
+                // An unconstrained body: it flies, or others push it.
                 match thrown {
                     Some((v, from)) => moved[c] = v[c] * (t - from).max(0.0),
                     None if meets_others(scene, interface, b) => return None,

@@ -1,4 +1,4 @@
-//! Temperatures that strain bodies too much, that jump in motion, or that count from nobody knows what.
+//! Temperatures that strain bodies too much, that jump in motion, or that count from an unknown temperature.
 
 use super::super::finding::{DoctorCause, Finding};
 use super::super::places::body;
@@ -57,7 +57,7 @@ pub(super) fn strained(model: &Model) -> Vec<Finding> {
     out
 }
 
-/// Temperatures that are given while nobody has said how warm bodies are at the start.
+/// Temperatures that are given while the temperature at the start is not given.
 fn from_zero(model: &Model) -> Option<Finding> {
     let heat = model.actions.heat.as_ref()?;
     let temperatures = &heat.temperatures;

@@ -163,7 +163,7 @@ fn unread(model: &Model, acting: &Acting) -> Option<Finding> {
     let (message, advice) = match repeated.and_then(|s| Some((s, s.cycles?))) {
         Some((step, cycles)) => (
             format!(
-                "the amplitude of {what} {name} has {} rows that nobody reads, the first at {first}: the steps end at {told} in its time, in which step {} with its {} cycles is one cycle of {}",
+                "the amplitude of {what} {name} has {} rows that are never reached, the first at {first}: the steps end at {told} in its time, in which step {} with its {} cycles is one cycle of {}",
                 beyond.len(),
                 step.name,
                 cycles.count,
@@ -173,7 +173,7 @@ fn unread(model: &Model, acting: &Acting) -> Option<Finding> {
         ),
         None => (
             format!(
-                "the amplitude of {what} {name} has {} rows that nobody reads, the first at {first}: the analysis ends at {told}",
+                "the amplitude of {what} {name} has {} rows that are never reached, the first at {first}: the analysis ends at {told}",
                 beyond.len()
             ),
             "make the steps as long as the amplitude, or leave out the rows",
