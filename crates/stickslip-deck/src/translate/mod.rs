@@ -288,3 +288,6 @@ fn deck_has_stick(deck: &Deck) -> bool {
     let mut all = deck.contact.interactions.values();
     all.any(|i| contact::compliant(i) && i.friction.as_ref().is_some_and(|f| f.stick.is_some()))
 }
+
+#[cfg(test)]
+mod tests;

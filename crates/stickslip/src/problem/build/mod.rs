@@ -268,6 +268,40 @@ impl Problem {
         })
     }
 
+    /// The interfaces, and what is said of the heights of their surfaces.
+    fn interfaces(
+        &self,
+        folder: &Path,
+        built: &Assembled,
+        attached: &Attached,
+    ) -> Result<(Vec<InterfaceDefinition>, Vec<String>), Error> {
+        let &Assembled {
+            mesh,
+            space,
+            dofs,
+            bodies,
+            links,
+            frames,
+            sets,
+            timeline,
+            ..
+        } = built;
+        let (supports, corotations) = (&attached.supports, &attached.corotations);
+        let mut held_nodes = held::HeldNodes::new(links, dofs, supports, &attached.couplings);
+        let held = mirrors::Held::new(links, dofs, supports, space);
+        let surfaces = surfaces::Surfaces {
+            mesh,
+            space,
+            bodies,
+        };
+        let mut interfaces = contact::build(self, sets, &surfaces, timeline, &held, &held_nodes)?;
+        held_nodes.mark(&mut interfaces);
+        turning::attach(frames, corotations, &mut interfaces)?;
+        turning::refuse_ties(frames, corotations, &interfaces, &attached.steps)?;
+        let heights = relief::apply(self, folder, &mut interfaces)?;
+        Ok((interfaces, heights))
+    }
+
     /// What is reported, and how it is judged.
     fn reports(&self, probes: Vec<Probe>) -> ReportPlan {
         let output = &self.output;
@@ -359,6 +393,9 @@ impl Problem {
             timeline: &timeline,
             cuts: &built.cuts,
         };
+        let attached = self.attach(&built)?;
+        let rigid = built.rigid();
+        let (interfaces, heights) = self.interfaces(folder, &built, &attached)?;
         let Attached {
             loads,
             springs,
@@ -369,21 +406,7 @@ impl Problem {
             references,
             followers,
             corotations,
-        } = self.attach(&built)?;
-        let rigid = built.rigid();
-        let mut held_nodes = held::HeldNodes::new(&links, dofs, &supports, &couplings);
-        let couplings = Couplings::new(couplings, space.dim());
-        let held = mirrors::Held::new(&links, dofs, &supports, space);
-        let surfaces = surfaces::Surfaces {
-            mesh: &mesh,
-            space,
-            bodies: &bodies,
-        };
-        let mut interfaces = contact::build(self, &sets, &surfaces, &timeline, &held, &held_nodes)?;
-        held_nodes.mark(&mut interfaces);
-        turning::attach(&frames, &corotations, &mut interfaces)?;
-        turning::refuse_ties(&frames, &corotations, &interfaces, &steps)?;
-        let heights = relief::apply(self, folder, &mut interfaces)?;
+        } = attached;
         let initials = initial::build(self, &sets, &mesh, &rigid, folder)?;
         initial::agree_with_supports(self, &initials, &supports, &mesh, &rigid)?;
         let probes = probes(self, &sets, &bodies)?;
@@ -420,7 +443,7 @@ impl Problem {
             model,
             contact: Contact {
                 interfaces: interfaces.into_iter().map(Interface::new).collect(),
-                couplings,
+                couplings: Couplings::new(couplings, space.dim()),
             },
             notes,
         })

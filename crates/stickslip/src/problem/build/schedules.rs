@@ -337,3 +337,76 @@ fn coupled(problem: &Problem, name: &str) -> Vec<bool> {
 fn block_end(start: f64, period: f64, number: usize) -> f64 {
     start + number as f64 * period
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A problem of a block with two loads and these steps.
+    fn problem(steps: &str) -> Problem {
+        let text = format!(
+            r#"
+            format = 1
+            [model]
+            space = "plane-strain"
+            [body.block]
+            generate.rectangle = {{ to = [1, 1], cells = [1, 1] }}
+            material = "m"
+            [material.m]
+            isotropic = {{ young = 1.0, poisson = 0.0, density = 1.0 }}
+            [support.bottom]
+            set = "block.bottom"
+            x = 0
+            y = 0
+            [load.push]
+            set = "block.top"
+            pressure.value = 1.0
+            [load.pulse]
+            set = "block.top"
+            pressure.value = 1.0
+            amplitude = "pulse"
+            [amplitude.pulse]
+            table = [[0, 0], [0.5, 1], [1, 0]]
+            {steps}
+            "#
+        );
+        Problem::from_toml(&text, None).unwrap_or_else(|e| panic!("{e}"))
+    }
+
+    fn factors(problem: &Problem, name: &str, amplitude: Option<&str>, times: &[f64]) -> Vec<f64> {
+        let schedule = Timeline::new(problem).load(problem, name, amplitude);
+        times.iter().map(|t| schedule.at(*t)).collect()
+    }
+
+    #[test]
+    fn loads_grow_stay_and_fall_from_step_to_step() {
+        let problem = problem(
+            "[[step]]\nduration = 2\n\n[[step]]\nduration = 1\n\n[[step]]\nduration = 1\nloads = [\"pulse\"]\n\n[[step]]\nduration = 1\nloads = []\n",
+        );
+        let times = [0.0, 1.0, 2.0, 2.5, 3.0, 3.25, 3.75, 4.0, 4.5];
+        assert_eq!(
+            factors(&problem, "push", None, &times),
+            [0.0, 0.5, 1.0, 1.0, 1.0, 0.75, 0.25, 0.0, 0.0]
+        );
+    }
+
+    #[test]
+    fn loads_of_steps_in_motion_come_and_go_at_once() {
+        let problem = problem(
+            "[[step]]\nduration = 1\nloads = []\n[[step]]\nduration = 1\ndynamic = {}\n[[step]]\nduration = 1\nloads = []\ndynamic = {}\n",
+        );
+        let at = factors(&problem, "push", None, &[0.5, 1.001, 1.5, 2.0, 2.5]);
+        assert_eq!(at, [0.0, 1.0, 1.0, 1.0, 0.0]);
+    }
+
+    #[test]
+    fn tables_say_the_factor_and_are_told_once_for_all_cycles() {
+        let once = problem("[[step]]\nduration = 1\n");
+        let times = [0.25, 0.5, 0.75, 1.0];
+        let pulse = factors(&once, "pulse", Some("pulse"), &times);
+        assert_eq!(pulse, [0.5, 1.0, 0.5, 0.0]);
+        let cycles = problem("[[step]]\nduration = 1\ncycles = { count = 3, jump = 1 }\n");
+        let later: Vec<f64> = times.iter().map(|t| t + 2.0).collect();
+        assert_eq!(factors(&cycles, "pulse", Some("pulse"), &later), pulse);
+    }
+}
