@@ -144,7 +144,9 @@ fn what_changes_from_step_to_step_is_listed() {
 
 #[test]
 fn a_deck_without_steps_is_refused() {
-    let refused = cube().translate(Path::new("cube.inp"));
-    let refused = format!("{:?}", refused.err().expect("no steps"));
+    let Err(refused) = cube().translate(Path::new("cube.inp")) else {
+        panic!("there are no steps");
+    };
+    let refused = format!("{refused:?}");
     assert!(refused.contains("the deck has no step"), "{refused}");
 }
