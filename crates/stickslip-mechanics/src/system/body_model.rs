@@ -38,8 +38,10 @@ pub trait BodyModel: fmt::Debug + Send + Sync {
         work - (self.energy(to) - self.energy(from))
     }
 
-    /// Forces of a damping matrix at displacements `u` and velocities `v` `[N]`: motions without strain are not damped by stiffness.
-    fn damping(&self, matrix: &Product, u: &[f64], v: &[f64]) -> Vec<f64>;
+    /// Forces of a damping matrix at displacements `u` `[m]` and velocities `v` `[m/s]`, both by dof `[N]`. A formulation in which bodies turn takes the turn out of `v`.
+    fn damping(&self, matrix: &Product, _u: &[f64], v: &[f64]) -> Vec<f64> {
+        matrix(v)
+    }
 
     /// The bodies with their tangents; `None` where increments are solved with the stiffness at rest.
     fn nonlinear(&self) -> Option<&dyn NonlinearBody> {

@@ -76,6 +76,67 @@ impl Solved {
             forces: &self.internal,
         }
     }
+
+    /// What of it an accepted increment hands on.
+    fn accepted(self, converged: &Converged) -> Accepted {
+        Accepted {
+            forces: self.reactions,
+            contact: self.contact,
+            external: self.external,
+            internal: Some(self.internal),
+            state: self.state,
+            ..Accepted::from_newton(converged)
+        }
+    }
+}
+
+/// The state from which an increment starts: where masses meet, with the accelerations of the impulse that is there already.
+fn impulse_start(
+    model: &Model,
+    frame: &Frame,
+    contact: &Contact,
+    inertia: &Inertia,
+    fixed: &[bool],
+    impulse: bool,
+) -> Result<State, StepFailure> {
+    let mut from = frame.state.clone();
+    if impulse && !frame.contact.is_empty() {
+        let kick = kicked(model, inertia, fixed, &frame.contact)?;
+        from.a.iter_mut().zip(kick).for_each(|(a, k)| *a += k);
+        inertia.lead(model, contact, from.t, fixed, &mut from.a);
+    }
+    Ok(from)
+}
+
+/// Where an increment is expected to end.
+fn predicted(
+    model: &Model,
+    increment: &Increment,
+    constraints: &Constraints,
+    sight: Option<&InertialFrame>,
+) -> Vec<f64> {
+    let mut u = increment.predict();
+    if let Some(sight) = sight {
+        sight.expect(model, increment.from, increment.dt, &mut u);
+    }
+    constraints.impose(&mut u);
+    model.links.impose(&mut u);
+    u
+}
+
+/// How velocities follow from displacements along the axes of space, where contact is: gain and shift by dof.
+fn rate_in_space(
+    model: &Model,
+    increment: &Increment,
+    fixed: &[bool],
+    sight: Option<&InertialFrame>,
+) -> (Vec<f64>, Vec<f64>) {
+    let (mut gain, mut shift) = increment.rate();
+    if let Some(sight) = sight {
+        sight.turn_out(&mut shift);
+        sight.rate(model, increment, fixed, &mut gain, &mut shift);
+    }
+    (gain, shift)
 }
 
 /// What an increment starts from.
@@ -211,24 +272,14 @@ impl Implicit {
             weights[1],
         );
         let plain = inertia.plain(&fixed, &model.links);
-        let mut from = frame.state.clone();
-        if impulse && !frame.contact.is_empty() {
-            let kick = kicked(model, inertia, &fixed, &frame.contact)?;
-            from.a.iter_mut().zip(kick).for_each(|(a, k)| *a += k);
-            inertia.lead(model, contact, trial.from, &fixed, &mut from.a);
-        }
+        let from = impulse_start(model, frame, contact, inertia, &fixed, impulse)?;
         let increment = Increment {
             alphas: scheme.alphas,
             dt,
             from: &from,
             plain: &plain,
         };
-        let mut u = increment.predict();
-        if let Some(sight) = &sight {
-            sight.expect(model, &from, dt, &mut u);
-        }
-        constraints.impose(&mut u);
-        model.links.impose(&mut u);
+        let u = predicted(model, &increment, &constraints, sight.as_ref());
         let still = IncrementalRotation::default();
         let spinning = sight.as_ref().map_or(&still, |sight| &sight.spinning);
         let now = IncrementScheme {
@@ -238,12 +289,7 @@ impl Implicit {
         };
         let start = IncrementStart { frame, solver };
         let guess = scheme.guess(start, now, u, &external);
-        let (mut gain, mut shift) = increment.rate();
-        if let Some(sight) = &sight {
-            // Contact is in space.
-            sight.turn_out(&mut shift);
-            sight.rate(model, &increment, &fixed, &mut gain, &mut shift);
-        }
+        let (gain, shift) = rate_in_space(model, &increment, &fixed, sight.as_ref());
         let rate = Rate {
             gain: &gain,
             shift: &shift,
@@ -265,24 +311,10 @@ impl Implicit {
         };
         let (converged, internal) =
             scheme.balanced(sought, contact, solver, guess, &mut external, &mut at)?;
-        let inertia = in_motion(&solver.inertia);
-        (at.v, at.a) = increment.motion(&at.u);
-        for (a, _) in at.a.iter_mut().zip(&inertia.light).filter(|(_, l)| **l) {
-            *a = 0.0;
-        }
-        model.links.impose(&mut at.v);
-        model.links.impose(&mut at.a);
         let start = IncrementStart { frame, solver };
-        let mut solved = Solved {
-            reactions: converged.forces.iter().map(|f| weights[1] * f).collect(),
-            contact: converged.contact.clone(),
-            external,
-            elastic: 0.0,
-            internal,
-            state: at,
-        };
-        let ends = [start.deformed(), solved.deformed()];
-        solved.elastic = (solver.bodies).unstored_work(scheme.alphas.alpha_f, ends);
+        let mut solved = scheme.solved(model, start, now, &converged, internal, at);
+        solved.external = external;
+        let inertia = in_motion(&solver.inertia);
         check_candidates(contact, &solver.conditions)?;
         let (easy, travel) = scheme.judge(model, frame, inertia, dt, &solved)?;
         scheme.locate(model, frame, contact, trial)?;
@@ -302,15 +334,42 @@ impl Implicit {
             rate: Some((gain, shift)),
             kinetic: inertia.kinetic_energy(&solved.state.v),
             strain: solver.bodies.energy(solved.deformed()),
-            forces: solved.reactions,
-            contact: solved.contact,
-            external: solved.external,
-            internal: Some(solved.internal),
             travel,
             hard: !easy,
-            state: solved.state,
-            ..Accepted::from_newton(&converged)
+            ..solved.accepted(&converged)
         })
+    }
+
+    /// An equilibrium as the end of an increment, with velocities and accelerations; without the loads.
+    fn solved(
+        &self,
+        model: &Model,
+        start: IncrementStart,
+        scheme: IncrementScheme,
+        converged: &Converged,
+        internal: Vec<f64>,
+        mut at: State,
+    ) -> Solved {
+        let IncrementStart { solver, .. } = start;
+        let light = &in_motion(&solver.inertia).light;
+        (at.v, at.a) = scheme.increment.motion(&at.u);
+        for (a, _) in at.a.iter_mut().zip(light).filter(|(_, l)| **l) {
+            *a = 0.0;
+        }
+        model.links.impose(&mut at.v);
+        model.links.impose(&mut at.a);
+        let [_, weight] = scheme.weights;
+        let mut solved = Solved {
+            reactions: converged.forces.iter().map(|f| weight * f).collect(),
+            contact: converged.contact.clone(),
+            external: Vec::new(),
+            elastic: 0.0,
+            internal,
+            state: at,
+        };
+        let ends = [start.deformed(), solved.deformed()];
+        solved.elastic = (solver.bodies).unstored_work(self.alphas.alpha_f, ends);
+        solved
     }
 
     /// Finds the equilibrium at the stage, in passes where bodies turn freely: the forces there, and elastic ones at the end.

@@ -16,7 +16,7 @@ use crate::model::frame::Frame;
 use crate::problem::Problem;
 use crate::solve::accepted::{Accepted, Effort};
 use crate::solve::solver::Solver;
-use crate::system::{BodyModel, Cause, Deformed, NonlinearBody, Product, State, StepFailure};
+use crate::system::{BodyModel, Cause, Deformed, NonlinearBody, State, StepFailure};
 use crate::time::Trial;
 
 /// A cell on a frame, pulled upwards at two points, with a ceiling where one is asked for.
@@ -228,10 +228,6 @@ impl BodyModel for Hardening {
             .collect()
     }
 
-    fn damping(&self, matrix: &Product, _u: &[f64], v: &[f64]) -> Vec<f64> {
-        matrix(v)
-    }
-
     fn nonlinear(&self) -> Option<&dyn NonlinearBody> {
         Some(self)
     }
@@ -327,10 +323,6 @@ impl BodyModel for Plain {
         let ends = from.u.iter().zip(to.u);
         let stage: Vec<f64> = ends.map(|(a, b)| first * a + (1.0 - first) * b).collect();
         self.0.times(&stage)
-    }
-
-    fn damping(&self, matrix: &Product, _u: &[f64], v: &[f64]) -> Vec<f64> {
-        matrix(v)
     }
 }
 

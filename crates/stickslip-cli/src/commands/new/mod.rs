@@ -64,7 +64,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     }
     save(&problem, &written.problem)?;
     save(&expected, &written.expected)?;
-    print::out(&told(&written, &problem, &expected))?;
+    print::out(&printed(&written, &problem, &expected))?;
     Ok(ExitCode::SUCCESS)
 }
 
@@ -89,10 +89,10 @@ fn save(path: &Path, text: &str) -> Result<(), Failure> {
     made.map_err(|e| Failure::Library(Error::io(path, e)))
 }
 
-fn told(written: &Written, problem: &Path, expected: &Path) -> String {
+fn printed(written: &Written, problem: &Path, expected: &Path) -> String {
     let figures = || {
         written
-            .told
+            .figures
             .lines()
             .filter_map(|line| line.split_once(": "))
     };

@@ -1,6 +1,6 @@
-//! What is written: a template with its numbers, what is expected of it, and what is told.
+//! What is written: a template with its numbers, what is expected of it, and the figures of theory that are printed.
 //!
-//! A template has parts, each after a line `#: name`: `title`, `told` (lines of a name and a figure), `notes`, `expected` and `problem`. In them `@name@` stands
+//! A template has parts, each after a line `#: name`: `title`, `figures` (lines of a name and a value), `notes`, `expected` and `problem`. In them `@name@` stands
 //! for a number with eight digits, more than any of it is worth, or for a text, `@name:4@` for a number with four, `@name:0@` for a whole one and
 //! `@name:all@` for one with all its digits. What is between lines `@if name@`, `@else@` and `@end@` depends on whether that holds.
 
@@ -29,7 +29,7 @@ pub struct Written {
     /// The file of what is expected.
     pub expected: String,
     /// Figures: lines of a name and a value with its unit and formula.
-    pub told: String,
+    pub figures: String,
     /// What else is to be said, a line each.
     pub notes: String,
 }
@@ -50,7 +50,7 @@ impl Written {
             expected: format!(
                 "# What theory says of it: {title}.\nformat = 1\nsource = \"closed forms\"\n{checks}"
             ),
-            told: part("told", &title),
+            figures: part("figures", &title),
             notes: part("notes", &title),
             title,
         }

@@ -3,7 +3,7 @@
 use crate::body::Elastic;
 use crate::linear::BlockCsr;
 use crate::math::vector::{dot, weighted_mean};
-use crate::system::{BodyModel, Deformed, NonlinearBody, Product};
+use crate::system::{BodyModel, Deformed, NonlinearBody};
 
 /// Bodies with a frame for each of their cells ([`Elastic::corotational`]) beside linear ones.
 #[derive(Debug)]
@@ -30,10 +30,6 @@ impl BodyModel for BodiesByCell {
 
     fn stage_forces(&self, first: f64, [from, to]: [Deformed; 2]) -> Vec<f64> {
         self.forces(&weighted_mean(first, from.u, to.u))
-    }
-
-    fn damping(&self, matrix: &Product, _u: &[f64], v: &[f64]) -> Vec<f64> {
-        matrix(v)
     }
 
     fn nonlinear(&self) -> Option<&dyn NonlinearBody> {

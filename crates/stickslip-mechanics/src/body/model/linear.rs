@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::linear::Matrix;
 use crate::math::vector::{difference, dot, weighted_mean};
-use crate::system::{BodyModel, Deformed, Product};
+use crate::system::{BodyModel, Deformed};
 
 /// `f = K u`.
 #[derive(Debug)]
@@ -30,9 +30,5 @@ impl BodyModel for LinearBodies {
     fn unstored_work(&self, first: f64, [from, to]: [Deformed; 2]) -> f64 {
         let forces = difference(to.forces, from.forces);
         (0.5 - first) * dot(&difference(to.u, from.u), &forces)
-    }
-
-    fn damping(&self, matrix: &Product, _u: &[f64], v: &[f64]) -> Vec<f64> {
-        matrix(v)
     }
 }

@@ -396,19 +396,8 @@ impl Problem {
         let attached = self.attach(&built)?;
         let rigid = built.rigid();
         let (interfaces, heights) = self.interfaces(folder, &built, &attached)?;
-        let Attached {
-            loads,
-            springs,
-            masses,
-            couplings,
-            supports,
-            steps,
-            references,
-            followers,
-            corotations,
-        } = attached;
         let initials = initial::build(self, &sets, &mesh, &rigid, folder)?;
-        initial::agree_with_supports(self, &initials, &supports, &mesh, &rigid)?;
+        initial::agree_with_supports(self, &initials, &attached.supports, &mesh, &rigid)?;
         let probes = probes(self, &sets, &bodies)?;
         let mut notes = moves.notes;
         notes.extend(interfaces.iter().filter_map(|i| self.exchange_note(i)));
@@ -418,21 +407,21 @@ impl Problem {
             space,
             size: mesh.diameter(),
             dofs,
-            links: links.with_followers(followers),
+            links: links.with_followers(attached.followers),
             frames,
-            corotations: Arc::new(corotations),
+            corotations: Arc::new(attached.corotations),
             bodies,
-            references,
+            references: attached.references,
             actions: Actions {
-                loads,
+                loads: attached.loads,
                 heat,
                 fields: Vec::new(),
-                springs,
-                masses,
-                supports,
+                springs: attached.springs,
+                masses: attached.masses,
+                supports: attached.supports,
                 initials,
             },
-            steps,
+            steps: attached.steps,
             reports: self.reports(probes),
             solution: self.solution(),
             unused: unused::tables(self),
@@ -443,7 +432,7 @@ impl Problem {
             model,
             contact: Contact {
                 interfaces: interfaces.into_iter().map(Interface::new).collect(),
-                couplings: Couplings::new(couplings, space.dim()),
+                couplings: Couplings::new(attached.couplings, space.dim()),
             },
             notes,
         })

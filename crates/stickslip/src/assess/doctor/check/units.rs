@@ -127,7 +127,7 @@ fn moduli(model: &Model, all: &[Numbers]) -> Option<Finding> {
         .into_iter()
         .find(|f| ratio > f / NEAR && ratio < f * NEAR)?;
     let remark = |n: &Numbers| format!("modulus {:.3e}", n.modulus);
-    let told = finding(format!(
+    let found = finding(format!(
         "the moduli of bodies {} and {} differ by a factor {ratio:.3e}, near the ratio {factor:.0e} of two units",
         hard.body.name, soft.body.name
     ));
@@ -137,8 +137,8 @@ fn moduli(model: &Model, all: &[Numbers]) -> Option<Finding> {
         ratio.max(1.0 / ratio) < ALIKE
     };
     let place = |n: &Numbers| body(model, &n.body.name, remark(n));
-    let told = told.note_unless(factor >= 1e4 || alike);
-    Some(told.blame_all([soft, hard].map(place)))
+    let found = found.note_unless(factor >= 1e4 || alike);
+    Some(found.blame_all([soft, hard].map(place)))
 }
 
 /// Two bodies whose densities differ by the ratio of two units.
