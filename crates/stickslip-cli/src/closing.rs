@@ -10,6 +10,7 @@ use stickslip::results::{Analysis, Summary};
 
 use crate::style::{self, Look, digits, figure, paint, sentence, vector};
 use crate::voice::say;
+use stickslip::mesh::geometry;
 
 /// Places nearer to an axis than this part of the size of the model are on it: bodies are strained by more. In the unit of [`vector`].
 const HERE: f64 = 1e-4 / style::ROUNDED;
@@ -23,7 +24,7 @@ pub fn closing(analysis: &Analysis, directory: &Path, verbose: bool) {
     say(&effort(s));
     let time = digits(analysis.frame.state.t, 6);
     let dim = analysis.model.dofs.dim;
-    let size = analysis.model.mesh.diameter();
+    let size = geometry::diameter(&analysis.model.mesh);
     for interface in &s.interfaces {
         for line in physics(interface, dim, size, &time) {
             say(&line);

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use stickslip::contact::look;
 
 use stickslip::Error;
-use stickslip::body::CellState;
+use stickslip::body::{CellState, cells};
 use stickslip::contact::interface::ContactView;
 use stickslip::io::Growing;
 use stickslip::math::{Vec3, add, cross, dot, norm, scale, sub};
@@ -350,11 +350,14 @@ impl Printer {
         let model = analysis.model;
         let mut by_id = BTreeMap::new();
         for body in &model.bodies {
-            body.elastic
-                .each_cell_state(&analysis.frame.state, &mut |state: &CellState| {
+            cells::each_cell_state(
+                &body.elastic,
+                &analysis.frame.state,
+                &mut |state: &CellState| {
                     let block = &model.mesh.blocks[state.cell.block];
                     by_id.insert(block.cell_ids[state.cell.cell], state.clone());
-                });
+                },
+            );
         }
         let title =
             |what: &str| format!("\n {what} for set {set} and time {}\n\n", time(self.time));

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
+use stickslip::body::fields;
 
 use stickslip::body::Elastic;
 use stickslip::math::{Vec3, add_scaled, cross, dot, norm, normalize, sub};
@@ -53,7 +54,7 @@ pub(crate) fn print(
         if mine.is_empty() {
             continue;
         }
-        let stress = elastic.nodal_stress(&analysis.frame.state.u);
+        let stress = fields::nodal_stress(elastic, &analysis.frame.state.u);
         let by_point: BTreeMap<usize, [f64; 6]> =
             elastic.points().iter().copied().zip(stress).collect();
         for facet in mine {

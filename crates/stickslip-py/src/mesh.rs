@@ -6,7 +6,7 @@ use std::sync::Arc;
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
-use stickslip::mesh::{Block, CellRef, FacetRef};
+use stickslip::mesh::{Block, CellRef, FacetRef, check};
 use stickslip::results::{seal, unseal};
 use stickslip::shape::ElementKind;
 
@@ -114,7 +114,7 @@ impl Mesh {
             set.dedup();
             mesh.facet_sets.insert(name, set);
         }
-        mesh.check().map_err(|e| raise(py, e.into()))?;
+        check::check(&mesh).map_err(|e| raise(py, e.into()))?;
         Ok(Mesh {
             mesh: Arc::new(mesh),
         })

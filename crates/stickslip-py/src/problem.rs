@@ -12,7 +12,7 @@ use stickslip::contact::interface::with_user_laws;
 use stickslip::mesh::Mesh as Points;
 use stickslip::model::{Contact, Setup};
 use stickslip::newton::condensed::Library;
-use stickslip::problem::{Document, Meshes};
+use stickslip::problem::{Document, Meshes, changes};
 use stickslip::results::{FolderClaim, Lent, Saved, Source, digest_of_state, seal, unseal};
 use stickslip::run::Checkpoint;
 use stickslip_deck::{Deck, Translation};
@@ -202,7 +202,7 @@ impl Problem {
     fn of_results(py: Python<'_>, directory: PathBuf) -> PyResult<Self> {
         let read = || -> Result<(Document, stickslip::problem::Problem), Error> {
             let (saved, _) = Saved::find(&directory, None)?;
-            let mut document = Document::of_results(&directory, &saved.source)?;
+            let mut document = changes::of_results(&directory, &saved.source)?;
             let problem = document.problem()?;
             // Names of meshes are relative to where the problem was.
             document.file = Some(PathBuf::from(&saved.source.file));
@@ -296,7 +296,7 @@ impl Problem {
             let (saved, notes) = Saved::find(&directory, increments)?;
             saved.check_lent(&directory, &lent)?;
             saved.check_inputs()?;
-            self.document.check_changes(&self.problem, &saved)?;
+            changes::check_changes(&self.document, &self.problem, &saved)?;
             Ok((held, saved, notes))
         };
         let (held, saved, notes) = py.detach(find).map_err(|e| raise(py, e))?;

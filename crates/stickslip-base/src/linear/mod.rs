@@ -42,7 +42,8 @@ pub use gmres::{GmresReport, GmresSettings, Product, gmres, gmres_inexact};
 pub use isotropic::Isotropic;
 pub use matrix::{Cells, Matrix, Summands};
 pub use multifrontal::{
-    Factor, Fronts, Numbers, PartialFactor, SINGULAR_ROUNDINGS, Symbolic, Workspace,
+    Factor, Fronts, Numbers, PartialFactor, SINGULAR_ROUNDINGS, Symbolic, Workspace, read_factor,
+    write_factor,
 };
 pub use multigrid::{GapVariables, MeshHints, Multigrid, MultigridSettings};
 pub use pattern::Couplings;

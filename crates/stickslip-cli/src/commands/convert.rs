@@ -2,9 +2,9 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use stickslip::io::{abaqus, gmsh, vtu};
-use stickslip::mesh::Mesh;
 
 use super::spare;
+use stickslip::mesh::{Mesh, check};
 
 use crate::failure::{Failure, Outcome};
 use crate::given;
@@ -94,7 +94,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     };
     let mesh = mesh.map_err(stickslip::Error::Mesh)?;
     let mut notes = write(output, &mesh, arguments.plane)?;
-    if let Err(e) = mesh.check() {
+    if let Err(e) = check::check(&mesh) {
         notes.push(format!("an analysis would refuse this mesh: {}", e.message));
     }
     for note in notes {

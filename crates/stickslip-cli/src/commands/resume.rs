@@ -2,7 +2,6 @@ use std::path::{Path, PathBuf};
 
 use stickslip::Error;
 use stickslip::newton::condensed::Library;
-use stickslip::problem::Document;
 use stickslip::results::{FolderClaim, Lent, ResultFiles, Saved, Source};
 use stickslip::run::{Checkpoint, Simulation};
 
@@ -12,6 +11,7 @@ use crate::failure::{Failure, Outcome};
 use crate::given;
 use crate::input::Input;
 use crate::voice::ProgressPrinter;
+use stickslip::problem::changes;
 
 /// Go on with an analysis that was stopped or killed, from its last checkpoint.
 ///
@@ -52,7 +52,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     saved.check_lent(directory, &Lent::default())?;
     saved.check_inputs()?;
     let input = open(&saved.source, directory, &arguments.set)?;
-    (input.document).check_changes(&input.problem, &saved)?;
+    changes::check_changes(&input.document, &input.problem, &saved)?;
     let setup = input.build()?;
     let cache = saved.source.cache.as_deref().map(Path::new);
     let library = library(Library::small_limit(), cache)?;
@@ -94,7 +94,7 @@ fn open(source: &Source, directory: &Path, set: &[String]) -> Result<Input, Fail
         let overrides: Vec<String> = source.overrides.iter().chain(set).cloned().collect();
         return Input::open(file, &overrides);
     }
-    let document = Document::of_results(directory, source)?.with_overrides(set.to_vec());
+    let document = changes::of_results(directory, source)?.with_overrides(set.to_vec());
     let folder = file.parent().unwrap_or(Path::new("")).to_path_buf();
     Input::of(document, folder)
 }

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::{At, Elastic, Part};
-use crate::mesh::CellRef;
+use crate::body::fields;
+use crate::mesh::{CellRef, combine};
 use crate::system::Dofs;
 
 /// The cells of a body that meet at a point, as a body of their own.
@@ -16,55 +17,53 @@ pub struct Around {
     at: usize,
 }
 
-impl Elastic {
-    /// What is needed for the stress at a point of the mesh; `None` if the body does not have it.
-    pub fn around(&self, point: usize) -> Option<Around> {
-        let mut cells = Vec::new();
-        for part in &self.parts {
-            let block = &self.mesh.blocks[part.block];
-            let nodes = block.connectivity.chunks_exact(block.kind.node_count());
-            let here = nodes.enumerate().filter(|(_, n)| n.contains(&point));
-            cells.extend(here.map(|(cell, _)| CellRef {
-                block: part.block,
-                cell,
-            }));
-        }
-        // the order in which `extract` takes them
-        cells.sort_unstable();
-        let points = self.mesh.points_of_cells(&cells);
-        let at = points.binary_search(&point).ok()?;
-        let mesh = self.mesh.extract(&cells);
-        let mut blocks: Vec<usize> = cells.iter().map(|c| c.block).collect();
-        blocks.dedup();
-        let parts = blocks.iter().enumerate().filter_map(|(block, old)| {
-            let part = self.parts.iter().find(|p| p.block == *old)?;
-            let own = cells.iter().filter(|c| c.block == *old);
-            let graded = part.cells.as_ref();
-            let graded = graded.map(|all| own.map(|c| all[c.cell]).collect::<Vec<_>>());
-            Some(Part {
-                block,
-                cells: graded.map(Arc::new),
-                ..part.clone()
-            })
-        });
-        let parts = parts.collect();
-        let elastic = Elastic::new(
-            self.name.clone(),
-            Arc::new(mesh),
-            self.space,
-            self.formulation,
-            parts,
-        );
-        let elastic = elastic.ok()?;
-        Some(Around {
-            elastic: match &self.temperatures {
-                None => elastic,
-                Some(all) => elastic.heated(Arc::new(all.extract(&points))),
-            },
-            points,
-            at,
-        })
+/// What is needed for the stress at a point of the mesh; `None` if the body does not have it.
+pub fn around(body: &Elastic, point: usize) -> Option<Around> {
+    let mut cells = Vec::new();
+    for part in &body.parts {
+        let block = &body.mesh.blocks[part.block];
+        let nodes = block.connectivity.chunks_exact(block.kind.node_count());
+        let here = nodes.enumerate().filter(|(_, n)| n.contains(&point));
+        cells.extend(here.map(|(cell, _)| CellRef {
+            block: part.block,
+            cell,
+        }));
     }
+    // the order in which `extract` takes them
+    cells.sort_unstable();
+    let points = body.mesh.points_of_cells(&cells);
+    let at = points.binary_search(&point).ok()?;
+    let mesh = combine::extract(&body.mesh, &cells);
+    let mut blocks: Vec<usize> = cells.iter().map(|c| c.block).collect();
+    blocks.dedup();
+    let parts = blocks.iter().enumerate().filter_map(|(block, old)| {
+        let part = body.parts.iter().find(|p| p.block == *old)?;
+        let own = cells.iter().filter(|c| c.block == *old);
+        let graded = part.cells.as_ref();
+        let graded = graded.map(|all| own.map(|c| all[c.cell]).collect::<Vec<_>>());
+        Some(Part {
+            block,
+            cells: graded.map(Arc::new),
+            ..part.clone()
+        })
+    });
+    let parts = parts.collect();
+    let elastic = Elastic::new(
+        body.name.clone(),
+        Arc::new(mesh),
+        body.space,
+        body.formulation,
+        parts,
+    );
+    let elastic = elastic.ok()?;
+    Some(Around {
+        elastic: match &body.temperatures {
+            None => elastic,
+            Some(all) => elastic.heated(Arc::new(all.extract(&points))),
+        },
+        points,
+        at,
+    })
 }
 
 impl Around {
@@ -76,13 +75,15 @@ impl Around {
             .iter()
             .flat_map(|&p| u[dofs.of(p, 0)..dofs.of(p, 0) + dofs.dim].iter().copied())
             .collect();
-        self.elastic.nodal_stress(At { u: &own, warm })[self.at]
+        fields::nodal_stress(&self.elastic, At { u: &own, warm })[self.at]
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::testing;
+    use super::around;
+    use crate::body::fields;
     use crate::system::Dofs;
 
     #[test]
@@ -94,12 +95,12 @@ mod tests {
                 points: body.mesh().points.len(),
             };
             let u = testing::noise(dofs.count());
-            let whole = body.nodal_stress(&u);
+            let whole = fields::nodal_stress(&body, &u);
             for (&p, wanted) in body.points().iter().zip(&whole) {
-                let around = body.around(p).expect("a point of the body");
+                let around = around(&body, p).expect("a point of the body");
                 assert_eq!(around.stress(dofs, &u), *wanted, "{kind:?} {space:?}");
             }
-            assert!(body.around(dofs.points).is_none());
+            assert!(around(&body, dofs.points).is_none());
         }
     }
 }

@@ -4,6 +4,7 @@ use super::geometry::{Table, by_nodes, point};
 use super::recover::stress_of;
 use super::scheme::{Scheme, printed_rule};
 use super::{At, Elastic, StressPoint};
+use crate::body::recover;
 use crate::mesh::CellRef;
 use crate::shape::QuadraturePoint;
 
@@ -30,140 +31,138 @@ pub struct CellState {
     pub points: Vec<StressPoint>,
 }
 
-impl Elastic {
-    /// Visits every cell at displacements, parts and cells in order.
-    pub fn each_cell_state<'a>(
-        &self,
-        at: impl Into<At<'a>>,
-        visit: &mut (dyn FnMut(&CellState) + Send),
-    ) {
-        let at = at.into();
-        for (part, p) in self.parts.iter().enumerate() {
-            by_nodes!(
-                self.mesh.blocks[p.block].kind,
-                Elastic::part_states(self, part, at, visit)
-            );
-        }
+/// Visits every cell at displacements, parts and cells in order.
+pub fn each_cell_state<'a>(
+    body: &Elastic,
+    at: impl Into<At<'a>>,
+    visit: &mut (dyn FnMut(&CellState) + Send),
+) {
+    let at = at.into();
+    for (part, p) in body.parts.iter().enumerate() {
+        by_nodes!(
+            body.mesh.blocks[p.block].kind,
+            part_states(body, part, at, visit)
+        );
     }
+}
 
-    fn part_states<const N: usize>(
-        &self,
-        part: usize,
-        at: At,
-        visit: &mut (dyn FnMut(&CellState) + Send),
-    ) {
-        let block = self.parts[part].block;
-        let kind = self.mesh.blocks[block].kind;
-        let rule: &[QuadraturePoint] = printed_rule(kind, self.formulation);
-        let table = Table::<N>::with_rule(kind, rule);
-        self.each_cell::<N>(
-            part,
-            at,
-            3 + rule.len() * WIDTH,
-            |medium, [x, v], recovered, values| {
-                values[0] = recovered.energy();
-                values[1] = recovered.volume();
-                values[2] = recovered.hourglass();
-                // Strains that are more than those of the displacements are at hand: these schemes have the points of the rule.
-                let own = matches!(medium.scheme, Scheme::Uniform | Scheme::Incompatible);
-                for (q, out) in values[3..].chunks_exact_mut(WIDTH).enumerate() {
-                    let (n, volume, strain) = if own {
-                        let p = &recovered.points[q];
-                        (medium.values(q), p.volume, recovered.strain[q])
-                    } else {
-                        let p = point(&table, q, x, self.space);
-                        let strain = recovered.strain_at(medium, &p, v);
-                        (&table.values[q], p.volume, strain)
-                    };
-                    for (o, row) in out.iter_mut().zip(x) {
-                        *o = n.iter().zip(row).map(|(n, x)| n * x).sum();
-                    }
-                    out[3] = volume;
-                    // Where the points are others, the thermal strain is the same in all of the cell.
-                    let thermal = recovered.thermal[q];
-                    let elastic = std::array::from_fn(|v| strain[v] - thermal[v]);
-                    let stress = stress_of(&medium.acting, &elastic);
-                    let [strain, thermal, stress] = recovered.in_space([strain, thermal, stress]);
-                    out[4..10].copy_from_slice(&strain);
-                    out[10..16].copy_from_slice(&stress);
-                    out[16..].copy_from_slice(&thermal);
+fn part_states<const N: usize>(
+    body: &Elastic,
+    part: usize,
+    at: At,
+    visit: &mut (dyn FnMut(&CellState) + Send),
+) {
+    let block = body.parts[part].block;
+    let kind = body.mesh.blocks[block].kind;
+    let rule: &[QuadraturePoint] = printed_rule(kind, body.formulation);
+    let table = Table::<N>::with_rule(kind, rule);
+    recover::each_cell::<N>(
+        body,
+        part,
+        at,
+        3 + rule.len() * WIDTH,
+        |medium, [x, v], recovered, values| {
+            values[0] = recovered.energy();
+            values[1] = recovered.volume();
+            values[2] = recovered.hourglass();
+            // Strains that are more than those of the displacements are at hand: these schemes have the points of the rule.
+            let own = matches!(medium.scheme, Scheme::Uniform | Scheme::Incompatible);
+            for (q, out) in values[3..].chunks_exact_mut(WIDTH).enumerate() {
+                let (n, volume, strain) = if own {
+                    let p = &recovered.points[q];
+                    (medium.values(q), p.volume, recovered.strain[q])
+                } else {
+                    let p = point(&table, q, x, body.space);
+                    let strain = recovered.strain_at(medium, &p, v);
+                    (&table.values[q], p.volume, strain)
+                };
+                for (o, row) in out.iter_mut().zip(x) {
+                    *o = n.iter().zip(row).map(|(n, x)| n * x).sum();
                 }
-            },
-            |cell, values| {
-                let cell = CellRef { block, cell };
-                let point = |v: &[f64]| StressPoint {
-                    cell,
+                out[3] = volume;
+                // Where the points are others, the thermal strain is the same in all of the cell.
+                let thermal = recovered.thermal[q];
+                let elastic = std::array::from_fn(|v| strain[v] - thermal[v]);
+                let stress = stress_of(&medium.acting, &elastic);
+                let [strain, thermal, stress] = recovered.in_space([strain, thermal, stress]);
+                out[4..10].copy_from_slice(&strain);
+                out[10..16].copy_from_slice(&stress);
+                out[16..].copy_from_slice(&thermal);
+            }
+        },
+        |cell, values| {
+            let cell = CellRef { block, cell };
+            let point = |v: &[f64]| StressPoint {
+                cell,
+                x: [v[0], v[1], v[2]],
+                volume: v[3],
+                strain: std::array::from_fn(|i| v[4 + i]),
+                stress: std::array::from_fn(|i| v[10 + i]),
+                thermal: std::array::from_fn(|i| v[16 + i]),
+            };
+            visit(&CellState {
+                cell,
+                energy: values[0],
+                volume: values[1],
+                hourglass: values[2],
+                points: values[3..].chunks_exact(WIDTH).map(point).collect(),
+            });
+        },
+    );
+}
+
+/// Stress and strain at every quadrature point at displacements; parts, cells and points in order. A cell with the
+/// mean of all strains has one point, its centre.
+pub fn stress_at_quadrature<'a>(body: &Elastic, at: impl Into<At<'a>>) -> Vec<StressPoint> {
+    let at = at.into();
+    let mut all = Vec::new();
+    for (part, p) in body.parts.iter().enumerate() {
+        let kind = body.mesh.blocks[p.block].kind;
+        by_nodes!(
+            kind,
+            part_stress(body, part, at, &mut |point| all.push(point))
+        );
+    }
+    all
+}
+
+fn part_stress<const N: usize>(
+    body: &Elastic,
+    part: usize,
+    at: At,
+    visit: &mut (dyn FnMut(StressPoint) + Send),
+) {
+    let block = body.parts[part].block;
+    let points = recover::medium::<N>(body, part).stations();
+    recover::each_cell::<N>(
+        body,
+        part,
+        at,
+        points * WIDTH,
+        |medium, [x, _], recovered, values| {
+            for (q, out) in values.chunks_exact_mut(WIDTH).enumerate() {
+                let n = medium.values(q);
+                for (o, row) in out.iter_mut().zip(x) {
+                    *o = n.iter().zip(row).map(|(n, x)| n * x).sum();
+                }
+                out[3] = recovered.points[q].volume;
+                let [strain, thermal, stress] = recovered.at(q);
+                out[4..10].copy_from_slice(&strain);
+                out[10..16].copy_from_slice(&stress);
+                out[16..].copy_from_slice(&thermal);
+            }
+        },
+        |cell, values| {
+            for v in values.chunks_exact(WIDTH) {
+                visit(StressPoint {
+                    cell: CellRef { block, cell },
                     x: [v[0], v[1], v[2]],
                     volume: v[3],
                     strain: std::array::from_fn(|i| v[4 + i]),
                     stress: std::array::from_fn(|i| v[10 + i]),
                     thermal: std::array::from_fn(|i| v[16 + i]),
-                };
-                visit(&CellState {
-                    cell,
-                    energy: values[0],
-                    volume: values[1],
-                    hourglass: values[2],
-                    points: values[3..].chunks_exact(WIDTH).map(point).collect(),
                 });
-            },
-        );
-    }
-}
-
-impl Elastic {
-    /// Stress and strain at every quadrature point at displacements; parts, cells and points in order. A cell with the
-    /// mean of all strains has one point, its centre.
-    pub fn stress_at_quadrature<'a>(&self, at: impl Into<At<'a>>) -> Vec<StressPoint> {
-        let at = at.into();
-        let mut all = Vec::new();
-        for (part, p) in self.parts.iter().enumerate() {
-            let kind = self.mesh.blocks[p.block].kind;
-            by_nodes!(
-                kind,
-                Elastic::part_stress(self, part, at, &mut |point| all.push(point))
-            );
-        }
-        all
-    }
-
-    fn part_stress<const N: usize>(
-        &self,
-        part: usize,
-        at: At,
-        visit: &mut (dyn FnMut(StressPoint) + Send),
-    ) {
-        let block = self.parts[part].block;
-        let points = self.medium::<N>(part).stations();
-        self.each_cell::<N>(
-            part,
-            at,
-            points * WIDTH,
-            |medium, [x, _], recovered, values| {
-                for (q, out) in values.chunks_exact_mut(WIDTH).enumerate() {
-                    let n = medium.values(q);
-                    for (o, row) in out.iter_mut().zip(x) {
-                        *o = n.iter().zip(row).map(|(n, x)| n * x).sum();
-                    }
-                    out[3] = recovered.points[q].volume;
-                    let [strain, thermal, stress] = recovered.at(q);
-                    out[4..10].copy_from_slice(&strain);
-                    out[10..16].copy_from_slice(&stress);
-                    out[16..].copy_from_slice(&thermal);
-                }
-            },
-            |cell, values| {
-                for v in values.chunks_exact(WIDTH) {
-                    visit(StressPoint {
-                        cell: CellRef { block, cell },
-                        x: [v[0], v[1], v[2]],
-                        volume: v[3],
-                        strain: std::array::from_fn(|i| v[4 + i]),
-                        stress: std::array::from_fn(|i| v[10 + i]),
-                        thermal: std::array::from_fn(|i| v[16 + i]),
-                    });
-                }
-            },
-        );
-    }
+            }
+        },
+    );
 }

@@ -2,6 +2,7 @@
 
 use super::geometry::by_nodes;
 use super::{At, Elastic};
+use crate::body::recover;
 use crate::system::{Fields, Location, State};
 
 /// The von Mises stress of a stress xx yy zz xy yz xz, in its unit.
@@ -51,7 +52,8 @@ impl<const K: usize> Sums<K> {
         let fit = &body.to_nodes[part];
         let of = self.of;
         let mut energies = Vec::with_capacity(block.connectivity.len() / N);
-        body.each_cell::<N>(
+        recover::each_cell::<N>(
+            body,
             part,
             at,
             K * N + 2,
@@ -92,109 +94,106 @@ fn strain_and_energy([strain, thermal, stress]: [&[f64; 6]; 3]) -> [f64; 7] {
     [xx, yy, zz, xy, yz, xz, 0.5 * twice]
 }
 
-impl Elastic {
-    /// Stress at the body's points `[Pa]`, six components each, in the order of [`points`](Elastic::points): taken from
-    /// the quadrature points to the nodes of each cell by a least-squares fit of the order of the linear element, then
-    /// averaged over the cells of this body that meet at the point. Different materials that share points are averaged
-    /// too.
-    pub fn nodal_stress<'a>(&self, at: impl Into<At<'a>>) -> Vec<[f64; 6]> {
-        self.recovery(at.into()).stress
-    }
+/// Stress at the body's points `[Pa]`, six components each, in the order of [`points`](Elastic::points): taken from
+/// the quadrature points to the nodes of each cell by a least-squares fit of the order of the linear element, then
+/// averaged over the cells of this body that meet at the point. Different materials that share points are averaged
+/// too.
+pub fn nodal_stress<'a>(body: &Elastic, at: impl Into<At<'a>>) -> Vec<[f64; 6]> {
+    recovery(body, at.into()).stress
+}
 
-    /// Strain at the body's points, six components with engineering shear strains, and behind them the strain energy per volume `[J/m³]`
-    /// without that of hourglass control: extrapolated and averaged as [`nodal_stress`](Elastic::nodal_stress) does. The strain across a
-    /// body in plane stress is not filled in.
-    fn nodal_strain(&self, at: At) -> Vec<[f64; 7]> {
-        let mut sums = Sums::new(self.mesh.points.len(), strain_and_energy);
-        self.visit_parts(at, &mut sums);
-        sums.means(self.points())
-    }
+/// Strain at the body's points, six components with engineering shear strains, and behind them the strain energy per volume `[J/m³]`
+/// without that of hourglass control: extrapolated and averaged as [`nodal_stress`](Elastic::nodal_stress) does. The strain across a
+/// body in plane stress is not filled in.
+fn nodal_strain(body: &Elastic, at: At) -> Vec<[f64; 7]> {
+    let mut sums = Sums::new(body.mesh.points.len(), strain_and_energy);
+    visit_parts(body, at, &mut sums);
+    sums.means(body.points())
+}
 
-    /// Adds `E` (points, six components) and `ENER` (points, strain energy per volume `[J/m³]`). Other bodies' points keep what is
-    /// there, zero at first.
-    pub fn strain_fields<'a>(&self, at: impl Into<At<'a>>, out: &mut Fields) {
-        let count = self.mesh.points.len();
-        let all = self.nodal_strain(at.into());
-        let e = out.shared("E", Location::Point, 6, count, 0.0);
-        for (&p, values) in self.points().iter().zip(&all) {
-            e.values[6 * p..6 * p + 6].copy_from_slice(&values[..6]);
+/// Adds `E` (points, six components) and `ENER` (points, strain energy per volume `[J/m³]`). Other bodies' points keep what is
+/// there, zero at first.
+pub fn strain_fields<'a>(body: &Elastic, at: impl Into<At<'a>>, out: &mut Fields) {
+    let count = body.mesh.points.len();
+    let all = nodal_strain(body, at.into());
+    let e = out.shared("E", Location::Point, 6, count, 0.0);
+    for (&p, values) in body.points().iter().zip(&all) {
+        e.values[6 * p..6 * p + 6].copy_from_slice(&values[..6]);
+    }
+    let energy = out.shared("ENER", Location::Point, 1, count, 0.0);
+    for (&p, values) in body.points().iter().zip(&all) {
+        energy.values[p] = values[6];
+    }
+}
+
+/// Visits every cell once.
+fn recovery(body: &Elastic, at: At) -> Recovery {
+    // By point of the mesh; points of other bodies stay unused.
+    let mut sums = Sums::new(body.mesh.points.len(), |[_, _, stress]| *stress);
+    let cells = visit_parts(body, at, &mut sums);
+    Recovery {
+        stress: sums.means(body.points()),
+        cells,
+    }
+}
+
+/// Sums values at points, and returns energy and volume of every cell, part by part.
+fn visit_parts<const K: usize>(body: &Elastic, at: At, sums: &mut Sums<K>) -> Vec<Vec<[f64; 2]>> {
+    (body.parts.iter().enumerate())
+        .map(|(part, p)| {
+            by_nodes!(
+                body.mesh.blocks[p.block].kind,
+                Sums::add_part(sums, body, part, at)
+            )
+        })
+        .collect()
+}
+
+/// Adds `S` (points, six components, `[Pa]`), `MISES` (points, `[Pa]`), `SENER` (cells, strain energy per volume
+/// `[J/m³]`) and `ELSE` (cells, strain energy `[J]`).
+///
+/// `MISES` is that of the averaged stress. Other bodies' points and cells keep what is there, zero at first.
+pub fn fields(body: &Elastic, state: &State, out: &mut Fields) {
+    let Recovery { stress, cells } = recovery(body, state.into());
+    let count = body.mesh.points.len();
+    let s = out.shared("S", Location::Point, 6, count, 0.0);
+    for (&p, stress) in body.points().iter().zip(&stress) {
+        s.values[6 * p..6 * p + 6].copy_from_slice(stress);
+    }
+    let mises = out.shared("MISES", Location::Point, 1, count, 0.0);
+    for (&p, stress) in body.points().iter().zip(&stress) {
+        mises.values[p] = von_mises(stress);
+    }
+    let starts = block_starts(body);
+    let count = starts[body.mesh.blocks.len()];
+    for (p, energies) in body.parts.iter().zip(&cells) {
+        let density = out.shared("SENER", Location::Cell, 1, count, 0.0);
+        for (v, [energy, volume]) in density.values[starts[p.block]..].iter_mut().zip(energies) {
+            *v = energy / volume;
         }
-        let energy = out.shared("ENER", Location::Point, 1, count, 0.0);
-        for (&p, values) in self.points().iter().zip(&all) {
-            energy.values[p] = values[6];
+        let whole = out.shared("ELSE", Location::Cell, 1, count, 0.0);
+        for (v, [energy, _]) in whole.values[starts[p.block]..].iter_mut().zip(energies) {
+            *v = *energy;
         }
     }
+    add_heat(body, state, out);
+}
 
-    /// Visits every cell once.
-    fn recovery(&self, at: At) -> Recovery {
-        // By point of the mesh; points of other bodies stay unused.
-        let mut sums = Sums::new(self.mesh.points.len(), |[_, _, stress]| *stress);
-        let cells = self.visit_parts(at, &mut sums);
-        Recovery {
-            stress: sums.means(self.points()),
-            cells,
-        }
-    }
-
-    /// Sums values at points, and returns energy and volume of every cell, part by part.
-    fn visit_parts<const K: usize>(&self, at: At, sums: &mut Sums<K>) -> Vec<Vec<[f64; 2]>> {
-        (self.parts.iter().enumerate())
-            .map(|(part, p)| {
-                by_nodes!(
-                    self.mesh.blocks[p.block].kind,
-                    Sums::add_part(sums, self, part, at)
-                )
-            })
-            .collect()
-    }
-
-    /// Adds `S` (points, six components, `[Pa]`), `MISES` (points, `[Pa]`), `SENER` (cells, strain energy per volume
-    /// `[J/m³]`) and `ELSE` (cells, strain energy `[J]`).
-    ///
-    /// `MISES` is that of the averaged stress. Other bodies' points and cells keep what is there, zero at first.
-    pub fn fields(&self, state: &State, out: &mut Fields) {
-        let Recovery { stress, cells } = self.recovery(state.into());
-        let count = self.mesh.points.len();
-        let s = out.shared("S", Location::Point, 6, count, 0.0);
-        for (&p, stress) in self.points().iter().zip(&stress) {
-            s.values[6 * p..6 * p + 6].copy_from_slice(stress);
-        }
-        let mises = out.shared("MISES", Location::Point, 1, count, 0.0);
-        for (&p, stress) in self.points().iter().zip(&stress) {
-            mises.values[p] = von_mises(stress);
-        }
-        let starts = block_starts(self);
-        let count = starts[self.mesh.blocks.len()];
-        for (p, energies) in self.parts.iter().zip(&cells) {
-            let density = out.shared("SENER", Location::Cell, 1, count, 0.0);
-            for (v, [energy, volume]) in density.values[starts[p.block]..].iter_mut().zip(energies)
-            {
-                *v = energy / volume;
-            }
-            let whole = out.shared("ELSE", Location::Cell, 1, count, 0.0);
-            for (v, [energy, _]) in whole.values[starts[p.block]..].iter_mut().zip(energies) {
-                *v = *energy;
-            }
-        }
-        self.add_heat(state, out);
-    }
-
-    /// Adds `NT` (points, temperature) and `THE` (points, six components of thermal strain), where temperatures are given.
-    fn add_heat(&self, state: &State, out: &mut Fields) {
-        let Some(temperatures) = &self.temperatures else {
-            return;
-        };
-        let count = self.mesh.points.len();
-        let all = temperatures.at(state.t);
-        let nt = out.shared("NT", Location::Point, 1, count, 0.0);
-        self.points().iter().for_each(|&p| nt.values[p] = all[p]);
-        let mut sums = Sums::new(count, |[_, thermal, _]| *thermal);
-        self.visit_parts(state.into(), &mut sums);
-        let thermal = sums.means(self.points());
-        let the = out.shared("THE", Location::Point, 6, count, 0.0);
-        for (&p, thermal) in self.points().iter().zip(&thermal) {
-            the.values[6 * p..6 * p + 6].copy_from_slice(thermal);
-        }
+/// Adds `NT` (points, temperature) and `THE` (points, six components of thermal strain), where temperatures are given.
+fn add_heat(body: &Elastic, state: &State, out: &mut Fields) {
+    let Some(temperatures) = &body.temperatures else {
+        return;
+    };
+    let count = body.mesh.points.len();
+    let all = temperatures.at(state.t);
+    let nt = out.shared("NT", Location::Point, 1, count, 0.0);
+    body.points().iter().for_each(|&p| nt.values[p] = all[p]);
+    let mut sums = Sums::new(count, |[_, thermal, _]| *thermal);
+    visit_parts(body, state.into(), &mut sums);
+    let thermal = sums.means(body.points());
+    let the = out.shared("THE", Location::Point, 6, count, 0.0);
+    for (&p, thermal) in body.points().iter().zip(&thermal) {
+        the.values[6 * p..6 * p + 6].copy_from_slice(thermal);
     }
 }
 

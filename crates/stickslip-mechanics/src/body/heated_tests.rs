@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::internal::InternalForce;
 use super::testing::{body, combinations, distort, grid, isotropic, matrix, noise, patch};
 use super::*;
+use crate::body::{around, cells, fields, recover};
 use crate::material::{Dilation, Expansion, ExpansionTable};
 use crate::math::vector::{dot, norm};
 use crate::mesh::Mesh;
@@ -90,23 +91,26 @@ fn a_body_that_is_free_to_expand_has_no_stress() {
         let body = warm(patch(kind, space, formulation), dilation, |_| 80.0);
         let u = strained(body.mesh(), strain);
         let stiff = body.parts()[0].stiffness[0][0] * strain[0];
-        for point in body.stress_at_quadrature(at(&u)) {
+        for point in cells::stress_at_quadrature(&body, at(&u)) {
             let largest = point.stress.iter().fold(0.0_f64, |m, s| m.max(s.abs()));
             assert!(largest < 1e-12 * stiff, "{what}: {:?}", point.stress);
             assert!((point.thermal[0] - strain[0]).abs() < 1e-15, "{what}");
         }
-        body.each_cell_state(at(&u), &mut |cell| {
+        cells::each_cell_state(&body, at(&u), &mut |cell| {
             for point in &cell.points {
                 assert!(norm(&point.stress) < 1e-12 * stiff, "{what}");
             }
         });
         let mut force = vec![0.0; u.len()];
-        body.internal_force(at(&u), &mut force);
+        recover::internal_force(&body, at(&u), &mut force);
         let mut held = vec![0.0; u.len()];
-        body.internal_force(at(&vec![0.0; u.len()]), &mut held);
+        recover::internal_force(&body, at(&vec![0.0; u.len()]), &mut held);
         assert!(norm(&force) < 1e-12 * norm(&held), "{what}");
-        let energy = body.strain_energy(at(&vec![0.0; u.len()]));
-        assert!(body.strain_energy(at(&u)) < 1e-12 * energy, "{what}");
+        let energy = recover::strain_energy(&body, at(&vec![0.0; u.len()]));
+        assert!(
+            recover::strain_energy(&body, at(&u)) < 1e-12 * energy,
+            "{what}"
+        );
     }
 }
 
@@ -121,15 +125,16 @@ fn thermal_forces_are_the_derivative_of_the_energy() {
         let u: Vec<f64> = u.iter().map(|u| 1e-4 * u).collect();
         let rest = vec![0.0; u.len()];
         let (mut pressed, mut ku, mut all) = (rest.clone(), rest.clone(), rest.clone());
-        body.internal_force(at(&rest), &mut pressed);
+        recover::internal_force(&body, at(&rest), &mut pressed);
         matrix(&body).mul(&u, &mut ku);
-        body.internal_force(at(&u), &mut all);
+        recover::internal_force(&body, at(&u), &mut all);
         let size = norm(&ku);
         for ((all, ku), pressed) in all.iter().zip(&ku).zip(&pressed) {
             assert!((all - ku - pressed).abs() < 1e-11 * size, "{what}");
         }
-        let energy = body.strain_energy(at(&rest)) + dot(&u, &pressed) + 0.5 * dot(&u, &ku);
-        let found = body.strain_energy(at(&u));
+        let energy =
+            recover::strain_energy(&body, at(&rest)) + dot(&u, &pressed) + 0.5 * dot(&u, &ku);
+        let found = recover::strain_energy(&body, at(&u));
         assert!(
             (found - energy).abs() < 1e-11 * found,
             "{what}: {found} {energy}"
@@ -158,7 +163,7 @@ fn a_bar_that_is_held_is_pressed_by_what_it_would_expand() {
     // Held along x, free across.
     let across = 1.3 * alpha * rise;
     let u = strained(body.mesh(), [0.0, across, across, 0.0, 0.0, 0.0]);
-    for point in body.stress_at_quadrature(at(&u)) {
+    for point in cells::stress_at_quadrature(&body, at(&u)) {
         assert!((point.stress[0] / (-young * alpha * rise) - 1.0).abs() < 1e-12);
         assert!(point.stress[1].abs() < 1e-10 * young * alpha * rise);
     }
@@ -178,7 +183,7 @@ fn what_is_written_of_a_warm_body_is_its_temperature_and_strain() {
         ..Default::default()
     };
     let mut fields = crate::system::Fields::default();
-    body.fields(&state, &mut fields);
+    fields::fields(&body, &state, &mut fields);
     let nt = fields.get("NT").expect("temperatures");
     assert_eq!(nt.values[3], 23.0);
     let the = fields.get("THE").expect("thermal strains");
@@ -190,9 +195,11 @@ fn what_is_written_of_a_warm_body_is_its_temperature_and_strain() {
         points: body.mesh().points.len(),
     };
     let u = noise(dofs.count());
-    let around = body.around(5).expect("a point").stress(dofs, at(&u));
+    let around = around::around(&body, 5)
+        .expect("a point")
+        .stress(dofs, at(&u));
     let place = body.points().iter().position(|&p| p == 5).expect("there");
-    assert_eq!(around, body.nodal_stress(at(&u))[place]);
+    assert_eq!(around, fields::nodal_stress(&body, at(&u))[place]);
 }
 
 fn body_space() -> Space {
@@ -225,7 +232,7 @@ fn cells_of_different_stiffness_add_up_with_and_without_a_matrix() {
         let u = noise(dofs.count());
         let (mut ku, mut by_stress) = (vec![0.0; u.len()], vec![0.0; u.len()]);
         matrix(&body).mul(&u, &mut ku);
-        body.internal_force(&u, &mut by_stress);
+        recover::internal_force(&body, &u, &mut by_stress);
         let mut alone = vec![0.0; u.len()];
         InternalForce::new(&[&body], dofs).apply(&u, &mut alone);
         let one = super::testing::body(

@@ -23,80 +23,80 @@ pub enum MassKind {
     Lumped,
 }
 
-impl Elastic {
-    /// Mass `[kg]` (in a plane body of its thickness, around an axis of the full ring).
-    pub fn total_mass(&self) -> f64 {
-        let mut total = 0.0;
-        self.cell_masses(MassKind::Consistent, None, &mut |_, m| {
-            total += m.iter().sum::<f64>();
+/// Mass `[kg]` (in a plane body of its thickness, around an axis of the full ring).
+pub fn total_mass(body: &Elastic) -> f64 {
+    let mut total = 0.0;
+    cell_masses(body, MassKind::Consistent, None, &mut |_, m| {
+        total += m.iter().sum::<f64>();
+    });
+    total
+}
+
+/// Adds the lumped masses, by point.
+pub fn add_lumped_mass(body: &Elastic, by_point: &mut [f64]) {
+    add_lumped(body, None, by_point);
+}
+
+/// Adds the volumes around the points `[m³]`, in the proportions of lumped masses.
+pub fn add_lumped_volume(body: &Elastic, by_point: &mut [f64]) {
+    add_lumped(body, Some(1.0), by_point);
+}
+
+fn add_lumped(body: &Elastic, density: Option<f64>, by_point: &mut [f64]) {
+    cell_masses(body, MassKind::Lumped, density, &mut |points, m| {
+        let n = points.len();
+        for (a, &p) in points.iter().enumerate() {
+            by_point[p] += m[a * n + a];
+        }
+    });
+}
+
+/// Adds the mass to a matrix with the pattern of the stiffness. Points that are `light` get none, and the rest of the body has it
+/// instead; `false` if there is no rest that could, and they have theirs.
+pub fn add_mass(body: &Elastic, kind: MassKind, light: &[bool], matrix: &mut BlockCsr) -> bool {
+    let dim = body.space.dim();
+    if !body.points().iter().any(|&p| light[p]) {
+        cell_masses(body, kind, None, &mut |points, m| {
+            spread(points, m, dim, matrix)
         });
-        total
+        return true;
     }
-
-    /// Adds the lumped masses, by point.
-    pub fn add_lumped_mass(&self, by_point: &mut [f64]) {
-        self.add_lumped(None, by_point);
-    }
-
-    /// Adds the volumes around the points `[m³]`, in the proportions of lumped masses.
-    pub fn add_lumped_volume(&self, by_point: &mut [f64]) {
-        self.add_lumped(Some(1.0), by_point);
-    }
-
-    fn add_lumped(&self, density: Option<f64>, by_point: &mut [f64]) {
-        self.cell_masses(MassKind::Lumped, density, &mut |points, m| {
-            let n = points.len();
-            for (a, &p) in points.iter().enumerate() {
-                by_point[p] += m[a * n + a];
+    let mut cells = Vec::new();
+    cell_masses(body, kind, None, &mut |points, m| {
+        cells.push(Cell {
+            points: points.to_vec(),
+            mass: m.to_vec(),
+        });
+    });
+    let factors = factors(&cells, &body.mesh.points, light, dim);
+    for (i, cell) in cells.iter_mut().enumerate() {
+        if let Some(factors) = &factors {
+            let n = cell.points.len();
+            for (k, m) in cell.mass.iter_mut().enumerate() {
+                let gone = light[cell.points[k / n]] || light[cell.points[k % n]];
+                *m *= if gone { 0.0 } else { factors[i] };
             }
-        });
+        }
+        spread(&cell.points, &cell.mass, dim, matrix);
     }
+    factors.is_some()
+}
 
-    /// Adds the mass to a matrix with the pattern of the stiffness. Points that are `light` get none, and the rest of the body has it
-    /// instead; `false` if there is no rest that could, and they have theirs.
-    pub fn add_mass(&self, kind: MassKind, light: &[bool], matrix: &mut BlockCsr) -> bool {
-        let dim = self.space.dim();
-        if !self.points().iter().any(|&p| light[p]) {
-            self.cell_masses(kind, None, &mut |points, m| spread(points, m, dim, matrix));
-            return true;
-        }
-        let mut cells = Vec::new();
-        self.cell_masses(kind, None, &mut |points, m| {
-            cells.push(Cell {
-                points: points.to_vec(),
-                mass: m.to_vec(),
-            });
-        });
-        let factors = factors(&cells, &self.mesh.points, light, dim);
-        for (i, cell) in cells.iter_mut().enumerate() {
-            if let Some(factors) = &factors {
-                let n = cell.points.len();
-                for (k, m) in cell.mass.iter_mut().enumerate() {
-                    let gone = light[cell.points[k / n]] || light[cell.points[k % n]];
-                    *m *= if gone { 0.0 } else { factors[i] };
-                }
-            }
-            spread(&cell.points, &cell.mass, dim, matrix);
-        }
-        factors.is_some()
-    }
-
-    /// Hands out the mass matrix of every cell in one direction, shape `(n, n)` row by row, with the cell's points.
-    /// Visits the masses of the cells, of another density where one is given.
-    fn cell_masses(
-        &self,
-        kind: MassKind,
-        density: Option<f64>,
-        visit: &mut dyn FnMut(&[usize], &[f64]),
-    ) {
-        for part in &self.parts {
-            let block = &self.mesh.blocks[part.block];
-            let density = density.unwrap_or(part.density);
-            by_nodes!(
-                block.kind,
-                masses(&self.mesh, block, self.space, density, kind, visit)
-            );
-        }
+/// Hands out the mass matrix of every cell in one direction, shape `(n, n)` row by row, with the cell's points.
+/// Visits the masses of the cells, of another density where one is given.
+fn cell_masses(
+    body: &Elastic,
+    kind: MassKind,
+    density: Option<f64>,
+    visit: &mut dyn FnMut(&[usize], &[f64]),
+) {
+    for part in &body.parts {
+        let block = &body.mesh.blocks[part.block];
+        let density = density.unwrap_or(part.density);
+        by_nodes!(
+            block.kind,
+            masses(&body.mesh, block, body.space, density, kind, visit)
+        );
     }
 }
 

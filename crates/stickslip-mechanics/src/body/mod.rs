@@ -4,14 +4,14 @@
 #![allow(clippy::needless_range_loop)]
 
 mod anchors;
-mod around;
+pub mod around;
 mod cell_frame;
-mod cells;
+pub mod cells;
 pub mod couplings;
 mod elastic;
 mod extrapolate;
 mod facets;
-mod fields;
+pub mod fields;
 mod geometry;
 pub mod heat;
 mod hourglass;
@@ -19,20 +19,20 @@ mod incompatible;
 pub mod internal;
 mod kernel;
 pub mod loads;
-mod mass;
+pub mod mass;
 mod medium;
 pub mod model;
-mod moments;
+pub mod moments;
 mod operator;
-mod portion;
-mod prestress;
-mod recover;
+pub mod portion;
+pub mod prestress;
+pub mod recover;
 mod redistribution;
 mod rigid;
 mod scheme;
 mod space;
 mod temperatures;
-mod turning;
+pub mod turning;
 mod warmth;
 mod waves;
 

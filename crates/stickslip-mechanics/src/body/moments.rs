@@ -36,45 +36,43 @@ impl MassMoments {
     }
 }
 
-impl Elastic {
-    /// Mass, centre and moments of inertia by quadrature.
-    ///
-    /// Mass and centre are integrated as weight is, so that weight acts at the centre also where cells are curved.
-    pub fn mass_moments(&self) -> MassMoments {
-        let mut sums = [0.0; 4];
-        self.each_mass_point(false, &mut |x, mass| {
-            sums[0] += mass;
-            for (s, x) in sums[1..].iter_mut().zip(x) {
-                *s += mass * x;
-            }
-        });
-        let mass = sums[0];
-        let centre: Vec3 = std::array::from_fn(|i| sums[i + 1] / mass);
-        let mut second = [[0.0; 3]; 3];
-        self.each_mass_point(true, &mut |x, mass| {
-            let r: Vec3 = std::array::from_fn(|i| x[i] - centre[i]);
-            for (row, a) in second.iter_mut().zip(r) {
-                for (s, b) in row.iter_mut().zip(r) {
-                    *s += mass * a * b;
-                }
-            }
-        });
-        MassMoments {
-            mass,
-            centre,
-            second,
+/// Mass, centre and moments of inertia by quadrature.
+///
+/// Mass and centre are integrated as weight is, so that weight acts at the centre also where cells are curved.
+pub fn mass_moments(body: &Elastic) -> MassMoments {
+    let mut sums = [0.0; 4];
+    each_mass_point(body, false, &mut |x, mass| {
+        sums[0] += mass;
+        for (s, x) in sums[1..].iter_mut().zip(x) {
+            *s += mass * x;
         }
+    });
+    let mass = sums[0];
+    let centre: Vec3 = std::array::from_fn(|i| sums[i + 1] / mass);
+    let mut second = [[0.0; 3]; 3];
+    each_mass_point(body, true, &mut |x, mass| {
+        let r: Vec3 = std::array::from_fn(|i| x[i] - centre[i]);
+        for (row, a) in second.iter_mut().zip(r) {
+            for (s, b) in row.iter_mut().zip(r) {
+                *s += mass * a * b;
+            }
+        }
+    });
+    MassMoments {
+        mass,
+        centre,
+        second,
     }
+}
 
-    /// Hands out the quadrature points of all cells and the mass of each, by the rule of the cells or that of masses.
-    fn each_mass_point(&self, fine: bool, visit: &mut dyn FnMut(Vec3, f64)) {
-        for part in &self.parts {
-            let block = &self.mesh.blocks[part.block];
-            by_nodes!(
-                block.kind,
-                mass_points(&self.mesh, block, self.space, part.density, fine, visit)
-            );
-        }
+/// Hands out the quadrature points of all cells and the mass of each, by the rule of the cells or that of masses.
+fn each_mass_point(body: &Elastic, fine: bool, visit: &mut dyn FnMut(Vec3, f64)) {
+    for part in &body.parts {
+        let block = &body.mesh.blocks[part.block];
+        by_nodes!(
+            block.kind,
+            mass_points(&body.mesh, block, body.space, part.density, fine, visit)
+        );
     }
 }
 

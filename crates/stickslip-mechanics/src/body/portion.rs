@@ -30,61 +30,59 @@ fn meaning() -> [u64; 2] {
     digest.finish()
 }
 
-impl Elastic {
-    /// Some of its cells, whose numbers are their places among all that [`couplings`](Elastic::couplings) hands out, ascending; and the points of the body that are theirs,
-    /// ascending.
-    pub fn portion(&self, cells: &[u32]) -> (Vec<usize>, Portion) {
-        let mut left = cells;
-        let (mut first, mut blocks, mut materials) = (0, Vec::new(), Vec::new());
-        for part in &self.parts {
-            let block = &self.mesh.blocks[part.block];
-            let nodes = block.kind.node_count();
-            let behind = first + block.connectivity.len() / nodes;
-            let (own, rest) = left.split_at(left.partition_point(|&c| (c as usize) < behind));
-            let own = || own.iter().map(|&cell| cell as usize - first);
-            blocks.push(Block {
-                kind: block.kind,
-                connectivity: own()
-                    .flat_map(|c| &block.connectivity[c * nodes..(c + 1) * nodes])
-                    .copied()
-                    .collect(),
-                cell_ids: Vec::new(),
-            });
-            let graded = part.cells.as_ref();
-            let graded = graded.map(|cells| own().map(|c| cells[c]).collect());
-            materials.push((part.stiffness, graded));
-            (left, first) = (rest, behind);
-        }
-        let mut points: Vec<usize> = blocks
-            .iter()
-            .flat_map(|b| &b.connectivity)
-            .copied()
-            .collect();
-        points.sort_unstable();
-        points.dedup();
-        for point in blocks.iter_mut().flat_map(|b| &mut b.connectivity) {
-            *point = points.partition_point(|p| p < point);
-        }
-        let mesh = Mesh {
-            dim: self.mesh.dim,
-            points: points.iter().map(|&p| self.mesh.points[p]).collect(),
-            blocks,
-            ..Mesh::default()
-        };
-        let space = match self.space {
-            Space::PlaneStrain { thickness } => (0, thickness),
-            Space::PlaneStress { thickness } => (1, thickness),
-            Space::Axisymmetric => (2, 1.0),
-            Space::Solid => (3, 1.0),
-        };
-        let portion = Portion {
-            mesh,
-            space,
-            formulation: self.formulation,
-            materials,
-        };
-        (points, portion)
+/// Some of its cells, whose numbers are their places among all that [`couplings`](Elastic::couplings) hands out, ascending; and the points of the body that are theirs,
+/// ascending.
+pub fn portion(body: &Elastic, cells: &[u32]) -> (Vec<usize>, Portion) {
+    let mut left = cells;
+    let (mut first, mut blocks, mut materials) = (0, Vec::new(), Vec::new());
+    for part in &body.parts {
+        let block = &body.mesh.blocks[part.block];
+        let nodes = block.kind.node_count();
+        let behind = first + block.connectivity.len() / nodes;
+        let (own, rest) = left.split_at(left.partition_point(|&c| (c as usize) < behind));
+        let own = || own.iter().map(|&cell| cell as usize - first);
+        blocks.push(Block {
+            kind: block.kind,
+            connectivity: own()
+                .flat_map(|c| &block.connectivity[c * nodes..(c + 1) * nodes])
+                .copied()
+                .collect(),
+            cell_ids: Vec::new(),
+        });
+        let graded = part.cells.as_ref();
+        let graded = graded.map(|cells| own().map(|c| cells[c]).collect());
+        materials.push((part.stiffness, graded));
+        (left, first) = (rest, behind);
     }
+    let mut points: Vec<usize> = blocks
+        .iter()
+        .flat_map(|b| &b.connectivity)
+        .copied()
+        .collect();
+    points.sort_unstable();
+    points.dedup();
+    for point in blocks.iter_mut().flat_map(|b| &mut b.connectivity) {
+        *point = points.partition_point(|p| p < point);
+    }
+    let mesh = Mesh {
+        dim: body.mesh.dim,
+        points: points.iter().map(|&p| body.mesh.points[p]).collect(),
+        blocks,
+        ..Mesh::default()
+    };
+    let space = match body.space {
+        Space::PlaneStrain { thickness } => (0, thickness),
+        Space::PlaneStress { thickness } => (1, thickness),
+        Space::Axisymmetric => (2, 1.0),
+        Space::Solid => (3, 1.0),
+    };
+    let portion = Portion {
+        mesh,
+        space,
+        formulation: body.formulation,
+        materials,
+    };
+    (points, portion)
 }
 
 impl Portion {
@@ -212,7 +210,7 @@ mod tests {
             for rank in 0..3 {
                 let cells: Vec<u32> = (0..count).filter(|c| 7 * c % 5 % 3 == rank).collect();
                 assert!(!cells.is_empty());
-                let (points, portion) = body.portion(&cells);
+                let (points, portion) = portion(&body, &cells);
                 let back = Portion::from_bytes(&portion.to_bytes()).expect("sound bytes");
                 let own = back.stiffness();
                 let b = own.block_size();
@@ -244,7 +242,7 @@ mod tests {
     #[test]
     fn bytes_that_are_cut_or_of_another_version_are_refused() {
         let (kind, space, way) = combinations()[0];
-        let (_, portion) = two_blocks(kind, space, way).portion(&[1, 2, 5]);
+        let (_, portion) = portion(&two_blocks(kind, space, way), &[1, 2, 5]);
         let bytes = portion.to_bytes();
         assert!(Portion::from_bytes(&bytes).is_ok());
         assert!(Portion::from_bytes(&bytes[..bytes.len() - 1]).is_err());

@@ -316,142 +316,142 @@ fn shift(v: &mut [f64; 6], to: f64) {
     }
 }
 
-impl Elastic {
-    pub(super) fn medium<const N: usize>(&self, part: usize) -> Medium<N> {
-        let kind = self.mesh.blocks[self.parts[part].block].kind;
-        Medium::new(kind, self.space, self.formulation, &self.acting[part])
-    }
+pub(super) fn medium<const N: usize>(body: &Elastic, part: usize) -> Medium<N> {
+    let kind = body.mesh.blocks[body.parts[part].block].kind;
+    Medium::new(kind, body.space, body.formulation, &body.acting[part])
+}
 
-    /// Runs `extract` (with the nodes of the cell and their displacements, in its frame if it has one) on every cell of a part in parallel and `consume` on its `width` results in order.
-    pub(super) fn each_cell<const N: usize>(
-        &self,
-        part: usize,
-        at: At,
-        width: usize,
-        extract: impl Fn(&Medium<N>, [&Nodal<N>; 2], &Recovered<N>, &mut [f64]) + Sync,
-        consume: impl FnMut(usize, &[f64]) + Send,
-    ) {
-        let own = &self.parts[part];
-        let block = &self.mesh.blocks[own.block];
-        let medium = self.medium::<N>(part);
-        let dofs = self.dofs();
-        let heat = self.temperatures.as_ref().zip(own.dilation.as_ref());
-        let heat = heat.and_then(|(temperatures, dilation)| {
-            let rises = match at.warm {
-                Warm::AtStart => return None,
-                Warm::AtTime(t) => temperatures.rises(t),
-                Warm::Weighted(weights) => temperatures.weighted(weights),
-            };
-            Some((temperatures, dilation, rises))
-        });
-        in_order(
-            block.connectivity.len() / N,
-            width,
-            |first, values| {
-                let mut recovered = Recovered::new();
-                let mut graded = own.cells.as_ref().map(|_| medium.clone());
-                for (c, out) in values.chunks_exact_mut(width).enumerate() {
-                    let cell = first + c;
-                    let x = coordinates(&self.mesh.points, block, cell);
-                    let mut v = gather(at.u, dofs, block, cell);
-                    if self.corotational {
-                        let frame = CellFrame::new(dofs.dim, &x, &v);
-                        v = frame.local();
-                        recovered.frame = Some(frame);
-                    }
-                    let nodes = &block.connectivity[cell * N..(cell + 1) * N];
-                    let warmth = heat.as_ref().map(|(temperatures, dilation, rises)| Warmth {
-                        dilation,
-                        start: std::array::from_fn(|a| temperatures.start[nodes[a]]),
-                        rise: std::array::from_fn(|a| rises[nodes[a]]),
-                    });
-                    if let Some(medium) = &mut graded {
-                        medium.set_stiffness(&self.acting_in(part, cell));
-                    }
-                    let medium = graded.as_ref().unwrap_or(&medium);
-                    recovered.compute(medium, &x, &v, warmth.as_ref());
-                    extract(medium, [&x, &v], &recovered, out);
+/// Runs `extract` (with the nodes of the cell and their displacements, in its frame if it has one) on every cell of a part in parallel and `consume` on its `width` results in order.
+pub(super) fn each_cell<const N: usize>(
+    body: &Elastic,
+    part: usize,
+    at: At,
+    width: usize,
+    extract: impl Fn(&Medium<N>, [&Nodal<N>; 2], &Recovered<N>, &mut [f64]) + Sync,
+    consume: impl FnMut(usize, &[f64]) + Send,
+) {
+    let own = &body.parts[part];
+    let block = &body.mesh.blocks[own.block];
+    let medium = medium::<N>(body, part);
+    let dofs = body.dofs();
+    let heat = body.temperatures.as_ref().zip(own.dilation.as_ref());
+    let heat = heat.and_then(|(temperatures, dilation)| {
+        let rises = match at.warm {
+            Warm::AtStart => return None,
+            Warm::AtTime(t) => temperatures.rises(t),
+            Warm::Weighted(weights) => temperatures.weighted(weights),
+        };
+        Some((temperatures, dilation, rises))
+    });
+    in_order(
+        block.connectivity.len() / N,
+        width,
+        |first, values| {
+            let mut recovered = Recovered::new();
+            let mut graded = own.cells.as_ref().map(|_| medium.clone());
+            for (c, out) in values.chunks_exact_mut(width).enumerate() {
+                let cell = first + c;
+                let x = coordinates(&body.mesh.points, block, cell);
+                let mut v = gather(at.u, dofs, block, cell);
+                if body.corotational {
+                    let frame = CellFrame::new(dofs.dim, &x, &v);
+                    v = frame.local();
+                    recovered.frame = Some(frame);
                 }
-            },
-            consume,
-        );
-    }
-
-    /// Adds the internal force at displacements to `out` `[N]`, by dof of the whole mesh: without any, and at a time, what temperatures press
-    /// with against what holds the body.
-    pub fn internal_force<'a>(&self, at: impl Into<At<'a>>, out: &mut [f64]) {
-        let at = at.into();
-        for (part, p) in self.parts.iter().enumerate() {
-            by_nodes!(
-                self.mesh.blocks[p.block].kind,
-                Elastic::part_force(self, part, at, out)
-            );
-        }
-    }
-
-    fn part_force<const N: usize>(&self, part: usize, at: At, out: &mut [f64]) {
-        let block = &self.mesh.blocks[self.parts[part].block];
-        let dofs = self.dofs();
-        self.each_cell::<N>(
-            part,
-            at,
-            N * dofs.dim,
-            |medium, _, recovered, values| recovered.force(medium, values),
-            |cell, values| {
-                let points = &block.connectivity[cell * N..(cell + 1) * N];
-                for (&p, f) in points.iter().zip(values.chunks_exact(dofs.dim)) {
-                    for (i, f) in f.iter().enumerate() {
-                        out[dofs.of(p, i)] += f;
-                    }
+                let nodes = &block.connectivity[cell * N..(cell + 1) * N];
+                let warmth = heat.as_ref().map(|(temperatures, dilation, rises)| Warmth {
+                    dilation,
+                    start: std::array::from_fn(|a| temperatures.start[nodes[a]]),
+                    rise: std::array::from_fn(|a| rises[nodes[a]]),
+                });
+                if let Some(medium) = &mut graded {
+                    medium.set_stiffness(&body.acting_in(part, cell));
                 }
-            },
+                let medium = graded.as_ref().unwrap_or(&medium);
+                recovered.compute(medium, &x, &v, warmth.as_ref());
+                extract(medium, [&x, &v], &recovered, out);
+            }
+        },
+        consume,
+    );
+}
+
+/// Adds the internal force at displacements to `out` `[N]`, by dof of the whole mesh: without any, and at a time, what temperatures press
+/// with against what holds the body.
+pub fn internal_force<'a>(body: &Elastic, at: impl Into<At<'a>>, out: &mut [f64]) {
+    let at = at.into();
+    for (part, p) in body.parts.iter().enumerate() {
+        by_nodes!(
+            body.mesh.blocks[p.block].kind,
+            part_force(body, part, at, out)
         );
     }
+}
 
-    /// Strain energy and volume of every cell of a part, in order.
-    pub(super) fn cell_energies(&self, part: usize, at: At) -> Vec<[f64; 2]> {
-        let kind = self.mesh.blocks[self.parts[part].block].kind;
-        by_nodes!(kind, Elastic::part_energies(self, part, at))
-    }
+fn part_force<const N: usize>(body: &Elastic, part: usize, at: At, out: &mut [f64]) {
+    let block = &body.mesh.blocks[body.parts[part].block];
+    let dofs = body.dofs();
+    each_cell::<N>(
+        body,
+        part,
+        at,
+        N * dofs.dim,
+        |medium, _, recovered, values| recovered.force(medium, values),
+        |cell, values| {
+            let points = &block.connectivity[cell * N..(cell + 1) * N];
+            for (&p, f) in points.iter().zip(values.chunks_exact(dofs.dim)) {
+                for (i, f) in f.iter().enumerate() {
+                    out[dofs.of(p, i)] += f;
+                }
+            }
+        },
+    );
+}
 
-    fn part_energies<const N: usize>(&self, part: usize, at: At) -> Vec<[f64; 2]> {
-        let mut all = Vec::new();
-        self.each_cell::<N>(
-            part,
-            at,
-            2,
-            |_, _, recovered, values| {
-                values[0] = recovered.energy();
-                values[1] = recovered.volume();
-            },
-            |_, values| all.push([values[0], values[1]]),
-        );
-        all
-    }
+/// Strain energy and volume of every cell of a part, in order.
+pub(super) fn cell_energies(body: &Elastic, part: usize, at: At) -> Vec<[f64; 2]> {
+    let kind = body.mesh.blocks[body.parts[part].block].kind;
+    by_nodes!(kind, part_energies(body, part, at))
+}
 
-    /// The strain energy at displacements `[J]`.
-    pub fn strain_energy<'a>(&self, at: impl Into<At<'a>>) -> f64 {
-        let at = at.into();
-        (0..self.parts.len())
-            .map(|part| {
-                self.cell_energies(part, at)
-                    .iter()
-                    .map(|e| e[0])
-                    .sum::<f64>()
-            })
-            .sum()
-    }
+fn part_energies<const N: usize>(body: &Elastic, part: usize, at: At) -> Vec<[f64; 2]> {
+    let mut all = Vec::new();
+    each_cell::<N>(
+        body,
+        part,
+        at,
+        2,
+        |_, _, recovered, values| {
+            values[0] = recovered.energy();
+            values[1] = recovered.volume();
+        },
+        |_, values| all.push([values[0], values[1]]),
+    );
+    all
+}
 
-    /// The volume of the body `[m³]`, with its thickness or all around its axis.
-    pub fn volume(&self) -> f64 {
-        let rest = vec![0.0; self.dofs().count()];
-        (0..self.parts.len())
-            .map(|part| {
-                self.cell_energies(part, At::from(&rest))
-                    .iter()
-                    .map(|e| e[1])
-                    .sum::<f64>()
-            })
-            .sum()
-    }
+/// The strain energy at displacements `[J]`.
+pub fn strain_energy<'a>(body: &Elastic, at: impl Into<At<'a>>) -> f64 {
+    let at = at.into();
+    (0..body.parts.len())
+        .map(|part| {
+            cell_energies(body, part, at)
+                .iter()
+                .map(|e| e[0])
+                .sum::<f64>()
+        })
+        .sum()
+}
+
+/// The volume of the body `[m³]`, with its thickness or all around its axis.
+pub fn volume(body: &Elastic) -> f64 {
+    let rest = vec![0.0; body.dofs().count()];
+    (0..body.parts.len())
+        .map(|part| {
+            cell_energies(body, part, At::from(&rest))
+                .iter()
+                .map(|e| e[1])
+                .sum::<f64>()
+        })
+        .sum()
 }

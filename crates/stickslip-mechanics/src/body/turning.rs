@@ -3,10 +3,10 @@
 use rayon::prelude::*;
 
 use super::cell_frame::CellFrame;
-use super::geometry::gather;
-use super::geometry::{Nodal, Point, Table, by_nodes, coordinates, point};
+use super::geometry::{Nodal, Point, Table, by_nodes, coordinates, gather, point};
 use super::scheme::stiffness_rule;
 use super::{At, Elastic, Formulation, Part};
+use crate::body::recover;
 use crate::math::{Mat3, Vec3, identity, norm, polar_rotation};
 use crate::mesh::CellRef;
 use crate::shape::QuadraturePoint;
@@ -57,105 +57,104 @@ impl Sum {
     }
 }
 
-impl Elastic {
-    /// How far the body has turned at the displacements `u` `[m]` (by dof of the whole mesh): where cells have frames of their own, in these, and `largest` is the
-    /// angle by which a part of a cell has.
-    pub fn turning(&self, u: &[f64]) -> Turning {
-        let mut turning = Turning::default();
-        let (mut mean, mut volume) = ([[0.0; 3]; 3], 0.0);
-        for part in &self.parts {
-            let kind = self.mesh.blocks[part.block].kind;
-            for sum in by_nodes!(kind, Elastic::turning_of(self, part, u)) {
-                for (m, g) in mean.iter_mut().flatten().zip(sum.gradient.as_flattened()) {
-                    *m += g;
-                }
-                volume += sum.volume;
-                let (largest, cell) = sum.largest;
-                if largest > turning.largest {
-                    turning.largest = largest;
-                    turning.cell = Some(CellRef {
-                        block: part.block,
-                        cell,
-                    });
-                }
+/// How far the body has turned at the displacements `u` `[m]` (by dof of the whole mesh): where cells have frames of their own, in these, and `largest` is the
+/// angle by which a part of a cell has.
+pub fn turning(body: &Elastic, u: &[f64]) -> Turning {
+    let mut turning = Turning::default();
+    let (mut mean, mut volume) = ([[0.0; 3]; 3], 0.0);
+    for part in &body.parts {
+        let kind = body.mesh.blocks[part.block].kind;
+        for sum in by_nodes!(kind, turning_of(body, part, u)) {
+            for (m, g) in mean.iter_mut().flatten().zip(sum.gradient.as_flattened()) {
+                *m += g;
+            }
+            volume += sum.volume;
+            let (largest, cell) = sum.largest;
+            if largest > turning.largest {
+                turning.largest = largest;
+                turning.cell = Some(CellRef {
+                    block: part.block,
+                    cell,
+                });
             }
         }
-        let volume = volume.max(f64::MIN_POSITIVE);
-        let mean = mean.map(|row| row.map(|g| g / volume));
-        turning.mean = rotation_of(&mean);
-        turning.vector = axial(&mean);
-        turning
     }
+    let volume = volume.max(f64::MIN_POSITIVE);
+    let mean = mean.map(|row| row.map(|g| g / volume));
+    turning.mean = rotation_of(&mean);
+    turning.vector = axial(&mean);
+    turning
+}
 
-    /// How much the body is strained, thermal strains apart, where its energy is: the root of the mean square of the strain, `√(ε:ε)`, weighted with the energy of the
-    /// cells. Cells at corners where a strain has no limit count for no more than they store.
-    pub fn strain_level<'a>(&self, at: impl Into<At<'a>>) -> f64 {
-        let (at, mut sums) = (at.into(), [0.0; 2]);
-        for (part, p) in self.parts.iter().enumerate() {
-            let kind = self.mesh.blocks[p.block].kind;
-            by_nodes!(kind, Elastic::strain_of(self, part, at, &mut sums));
-        }
-        (sums[1] / sums[0].max(f64::MIN_POSITIVE)).sqrt()
+/// How much the body is strained, thermal strains apart, where its energy is: the root of the mean square of the strain, `√(ε:ε)`, weighted with the energy of the
+/// cells. Cells at corners where a strain has no limit count for no more than they store.
+pub fn strain_level<'a>(body: &Elastic, at: impl Into<At<'a>>) -> f64 {
+    let (at, mut sums) = (at.into(), [0.0; 2]);
+    for (part, p) in body.parts.iter().enumerate() {
+        let kind = body.mesh.blocks[p.block].kind;
+        by_nodes!(kind, strain_of(body, part, at, &mut sums));
     }
+    (sums[1] / sums[0].max(f64::MIN_POSITIVE)).sqrt()
+}
 
-    fn strain_of<const N: usize>(&self, part: usize, at: At, sums: &mut [f64; 2]) {
-        self.each_cell::<N>(
-            part,
-            at,
-            2,
-            |_, _, recovered, values| {
-                let mut squares = [0.0; 2];
-                for (q, p) in recovered.points.iter().enumerate() {
-                    let [xx, yy, zz, xy, yz, xz] = recovered.elastic(q);
-                    let shear = 0.5 * (xy * xy + yz * yz + xz * xz);
-                    squares[0] += p.volume;
-                    squares[1] += p.volume * (xx * xx + yy * yy + zz * zz + shear);
-                }
-                values[0] = recovered.energy();
-                values[1] = values[0] * squares[1] / squares[0];
-            },
-            |_, values| {
-                sums[0] += values[0];
-                sums[1] += values[1];
-            },
-        );
-    }
-
-    fn turning_of<const N: usize>(&self, part: &Part, u: &[f64]) -> Vec<Sum> {
-        let block = &self.mesh.blocks[part.block];
-        // One point for a cell: its gradient is exact for every linear displacement. Where cells have frames of their own they are bent in these.
-        let centre = [QuadraturePoint {
-            xi: block.kind.centre(),
-            weight: 1.0,
-        }];
-        let rule = match self.corotational {
-            true => stiffness_rule(block.kind, self.space, Formulation::Standard),
-            false => &centre,
-        };
-        let table = Table::<N>::with_rule(block.kind, rule);
-        let dim = self.space.dim();
-        let count = block.connectivity.len() / N;
-        let chunks = (0..count.div_ceil(CHUNK)).into_par_iter();
-        let of_chunk = |chunk: usize| {
-            let mut sum = Sum {
-                gradient: [[0.0; 3]; 3],
-                volume: 0.0,
-                largest: (0.0, 0),
-            };
-            for cell in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {
-                let x = coordinates::<N>(&self.mesh.points, block, cell);
-                let mut u = gather(u, self.dofs(), block, cell);
-                if self.corotational {
-                    u = CellFrame::new(dim, &x, &u).local();
-                }
-                for q in 0..table.len() {
-                    sum.add(&point(&table, q, &x, self.space), &u, dim, cell);
-                }
+fn strain_of<const N: usize>(body: &Elastic, part: usize, at: At, sums: &mut [f64; 2]) {
+    recover::each_cell::<N>(
+        body,
+        part,
+        at,
+        2,
+        |_, _, recovered, values| {
+            let mut squares = [0.0; 2];
+            for (q, p) in recovered.points.iter().enumerate() {
+                let [xx, yy, zz, xy, yz, xz] = recovered.elastic(q);
+                let shear = 0.5 * (xy * xy + yz * yz + xz * xz);
+                squares[0] += p.volume;
+                squares[1] += p.volume * (xx * xx + yy * yy + zz * zz + shear);
             }
-            sum
+            values[0] = recovered.energy();
+            values[1] = values[0] * squares[1] / squares[0];
+        },
+        |_, values| {
+            sums[0] += values[0];
+            sums[1] += values[1];
+        },
+    );
+}
+
+fn turning_of<const N: usize>(body: &Elastic, part: &Part, u: &[f64]) -> Vec<Sum> {
+    let block = &body.mesh.blocks[part.block];
+    // One point for a cell: its gradient is exact for every linear displacement. Where cells have frames of their own they are bent in these.
+    let centre = [QuadraturePoint {
+        xi: block.kind.centre(),
+        weight: 1.0,
+    }];
+    let rule = match body.corotational {
+        true => stiffness_rule(block.kind, body.space, Formulation::Standard),
+        false => &centre,
+    };
+    let table = Table::<N>::with_rule(block.kind, rule);
+    let dim = body.space.dim();
+    let count = block.connectivity.len() / N;
+    let chunks = (0..count.div_ceil(CHUNK)).into_par_iter();
+    let of_chunk = |chunk: usize| {
+        let mut sum = Sum {
+            gradient: [[0.0; 3]; 3],
+            volume: 0.0,
+            largest: (0.0, 0),
         };
-        chunks.map(of_chunk).collect()
-    }
+        for cell in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {
+            let x = coordinates::<N>(&body.mesh.points, block, cell);
+            let mut u = gather(u, body.dofs(), block, cell);
+            if body.corotational {
+                u = CellFrame::new(dim, &x, &u).local();
+            }
+            for q in 0..table.len() {
+                sum.add(&point(&table, q, &x, body.space), &u, dim, cell);
+            }
+        }
+        sum
+    };
+    chunks.map(of_chunk).collect()
 }
 
 /// The rotation in a displacement gradient `[rad]`: that of the linear theory, the length of the axial vector of its antisymmetric part, or that of
@@ -215,16 +214,16 @@ mod tests {
             for angle in [0.03, 2.0] {
                 let turn = rotation([0.0, 0.0, 1.0], angle);
                 let u = displaced(&body, &|x| add(sub(mat_vec(&turn, x), x), [3e3, -2e3, 0.0]));
-                let found = body.turning(&u);
+                let found = turning(&body, &u);
                 assert!((found.mean - angle).abs() < 1e-9, "{kind}: {found:?}");
                 assert!((found.largest - angle).abs() < 1e-9, "{kind}: {found:?}");
             }
             // Stretched by a third along x and pressed by a fifth along y.
             let u = displaced(&body, &|x| [x[0] / 3.0, -x[1] / 5.0, 0.0]);
-            assert!(body.turning(&u).largest < 1e-12, "{kind}");
+            assert!(turning(&body, &u).largest < 1e-12, "{kind}");
             // As the linear theory turns, without bound.
             let u = displaced(&body, &|x| cross([0.0, 0.0, 1e7], x));
-            assert!((body.turning(&u).mean / 1e7 - 1.0).abs() < 1e-9, "{kind}");
+            assert!((turning(&body, &u).mean / 1e7 - 1.0).abs() < 1e-9, "{kind}");
         }
     }
 
@@ -270,7 +269,7 @@ mod tests {
         let x = body.mesh().points.iter().map(|x| x[0]);
         let middle = 0.5 * x.fold(0.0_f64, f64::max);
         let u = displaced(&body, &|x| [0.0, 0.3 * (x[0] - middle).abs(), 0.0]);
-        let found = body.turning(&u);
+        let found = turning(&body, &u);
         assert!(
             found.largest > 0.1 && found.mean < found.largest,
             "{found:?}"

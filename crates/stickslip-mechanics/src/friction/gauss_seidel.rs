@@ -2,6 +2,7 @@ use super::map::trial;
 use super::point::{local, projected};
 use super::problem::FrictionProblem;
 use super::solver::{Best, FrictionSolver, Iterate};
+use crate::friction::map;
 
 /// Nonsmooth Gauss-Seidel: point by point, each solved alone under the forces of all others, in the order in which they stand
 /// ([Jean and Moreau](stickslip_base::references::jean_moreau_1992), [Jourdan, Alart and Jean](stickslip_base::references::jourdan_1998)).
@@ -33,7 +34,7 @@ impl FrictionSolver for GaussSeidel {
         let stiffness = problem.stiffness();
         let own: Vec<[f64; 9]> = (0..problem.points()).map(|k| problem.own(k)).collect();
         let mut forces = start.to_vec();
-        let mut best = Best::new(&forces, problem.error(&forces));
+        let mut best = Best::new(&forces, map::error(problem, &forces));
         let patience = PATIENCE.max(self.sweeps / (10 * LOOK));
         let mut seen = vec![best.error()];
         for sweep in 1..=self.sweeps {
@@ -43,7 +44,7 @@ impl FrictionSolver for GaussSeidel {
             if sweep % LOOK != 0 && sweep != self.sweeps {
                 continue;
             }
-            best.see(&forces, problem.error(&forces));
+            best.see(&forces, map::error(problem, &forces));
             seen.push(best.error());
             let gains = match seen.len().checked_sub(patience + 1) {
                 Some(before) => best.error() <= GAIN * seen[before],

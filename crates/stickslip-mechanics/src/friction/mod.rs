@@ -12,7 +12,7 @@
 pub mod cone;
 mod gauss_seidel;
 mod linear;
-mod map;
+pub(crate) mod map;
 mod newton;
 mod point;
 mod portfolio;

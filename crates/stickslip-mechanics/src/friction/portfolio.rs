@@ -3,6 +3,7 @@ use super::newton::{Length, NewtonInForces, Step};
 use super::problem::FrictionProblem;
 use super::proximal::ProximalPoint;
 use super::solver::FrictionSolver;
+use crate::friction::map;
 
 /// One solver that was tried.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,7 +52,7 @@ pub fn solve(problem: &FrictionProblem, guess: Option<&[f64]>, tolerance: f64) -
     let guess = guess.map_or_else(|| vec![0.0; problem.size()], <[f64]>::to_vec);
     let mut swept = guess.clone();
     let mut best = guess.clone();
-    let mut error = problem.error(&best);
+    let mut error = map::error(problem, &best);
     let mut tried = Vec::new();
     for (solver, start) in members() {
         if error <= tolerance {

@@ -2,6 +2,7 @@ use super::gauss_seidel::GaussSeidel;
 use super::newton::{Length, NewtonInForces, Step};
 use super::problem::FrictionProblem;
 use super::solver::{Best, FrictionSolver, Iterate};
+use crate::friction::map;
 
 /// Proximal point iteration: every point is given an artificial compliance around the forces it has, which makes the problem regular, and each solution is
 /// the centre of the next ([Rockafellar](stickslip_base::references::rockafellar_1976); for friction
@@ -37,7 +38,7 @@ impl FrictionSolver for ProximalPoint {
         let (d, n) = (problem.dimension, problem.size());
         let inner = NewtonInForces::new(Step::Proximal, Length::Falling);
         let mut forces = start.to_vec();
-        let mut best = Best::new(&forces, problem.error(&forces));
+        let mut best = Best::new(&forces, map::error(problem, &forces));
         let mut added = FIRST;
         let mut iterations = 0;
         let mut near = problem.clone();
@@ -61,7 +62,7 @@ impl FrictionSolver for ProximalPoint {
             }
             if found.error <= wanted {
                 forces = found.forces;
-                best.see(&forces, problem.error(&forces));
+                best.see(&forces, map::error(problem, &forces));
                 added = (added * SOLVED).max(SMALLEST);
             } else {
                 added *= FAILED;

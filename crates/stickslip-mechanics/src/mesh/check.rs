@@ -4,217 +4,215 @@ use super::geometry::shape_quality;
 use super::{CellRef, Mesh};
 use crate::error::MeshError;
 use crate::math::distance;
+use crate::mesh::geometry;
 
 /// A Jacobian below this part of that of a right-angled cell is collapsed.
 const COLLAPSED: f64 = 1e-8;
 
-impl Mesh {
-    /// Checks the structure (indices in range, lengths that fit), the coordinates and the Jacobian of every cell at
-    /// its quadrature points and corners. Unused points are allowed: see [`Mesh::unused_points`].
-    ///
-    /// # Errors
-    /// The first finding, with the user's number of the point or cell.
-    pub fn check(&self) -> Result<(), MeshError> {
-        self.check_structure()?;
-        self.check_faces()?;
-        self.cells().try_for_each(|cell| self.check_jacobian(cell))
-    }
+/// Checks the structure (indices in range, lengths that fit), the coordinates and the Jacobian of every cell at
+/// its quadrature points and corners. Unused points are allowed: see [`Mesh::unused_points`].
+///
+/// # Errors
+/// The first finding, with the user's number of the point or cell.
+pub fn check(mesh: &Mesh) -> Result<(), MeshError> {
+    check_structure(mesh)?;
+    check_faces(mesh)?;
+    mesh.cells().try_for_each(|cell| check_jacobian(mesh, cell))
+}
 
-    /// Checks indices, lengths and coordinates, not the shape of cells: what files can hold.
-    ///
-    /// # Errors
-    /// The first finding, with the user's number of the point or cell.
-    pub fn check_structure(&self) -> Result<(), MeshError> {
-        self.check_points()?;
-        self.check_blocks()?;
-        self.check_sets()
-    }
+/// Checks indices, lengths and coordinates, not the shape of cells: what files can hold.
+///
+/// # Errors
+/// The first finding, with the user's number of the point or cell.
+pub fn check_structure(mesh: &Mesh) -> Result<(), MeshError> {
+    check_points(mesh)?;
+    check_blocks(mesh)?;
+    check_sets(mesh)
+}
 
-    /// The points that no cell uses, sorted.
-    pub fn unused_points(&self) -> Vec<usize> {
-        let mut used = vec![false; self.points.len()];
-        for &p in self.blocks.iter().flat_map(|b| &b.connectivity) {
-            if let Some(used) = used.get_mut(p) {
-                *used = true;
-            }
+/// The points that no cell uses, sorted.
+pub fn unused_points(mesh: &Mesh) -> Vec<usize> {
+    let mut used = vec![false; mesh.points.len()];
+    for &p in mesh.blocks.iter().flat_map(|b| &b.connectivity) {
+        if let Some(used) = used.get_mut(p) {
+            *used = true;
         }
-        (0..used.len()).filter(|&p| !used[p]).collect()
     }
+    (0..used.len()).filter(|&p| !used[p]).collect()
+}
 
-    fn check_points(&self) -> Result<(), MeshError> {
-        if !(2..=3).contains(&self.dim) {
+fn check_points(mesh: &Mesh) -> Result<(), MeshError> {
+    if !(2..=3).contains(&mesh.dim) {
+        return Err(
+            MeshError::new(format!("a mesh cannot have dimension {}", mesh.dim))
+                .help("the dimension is 2 or 3"),
+        );
+    }
+    if mesh.point_ids.len() != mesh.points.len() {
+        return Err(MeshError::new(format!(
+            "{} points have {} numbers",
+            mesh.points.len(),
+            mesh.point_ids.len()
+        ))
+        .help("give every point one number"));
+    }
+    for (p, x) in mesh.points.iter().enumerate() {
+        let id = mesh.point_ids[p];
+        if x.iter().any(|x| !x.is_finite()) {
+            return Err(MeshError::new(format!(
+                "point {id} has a coordinate that is not finite: ({}, {}, {})",
+                x[0], x[1], x[2]
+            ))
+            .help("repair the mesh where it was made"));
+        }
+        if mesh.dim == 2 && x[2] != 0.0 {
             return Err(
-                MeshError::new(format!("a mesh cannot have dimension {}", self.dim))
-                    .help("the dimension is 2 or 3"),
+                MeshError::new(format!("point {id} of a 2D mesh has z = {}", x[2]))
+                    .help("a 2D mesh lies in the plane z = 0"),
             );
         }
-        if self.point_ids.len() != self.points.len() {
+    }
+    Ok(())
+}
+
+fn check_blocks(mesh: &Mesh) -> Result<(), MeshError> {
+    if mesh.cell_count() == 0 {
+        return Err(MeshError::new("the mesh has no cells").help(format!(
+            "a {}D mesh needs cells of dimension {}",
+            mesh.dim, mesh.dim
+        )));
+    }
+    for (index, block) in mesh.blocks.iter().enumerate() {
+        let kind = block.kind;
+        if kind.dim() != mesh.dim {
             return Err(MeshError::new(format!(
-                "{} points have {} numbers",
-                self.points.len(),
-                self.point_ids.len()
+                "block {index} of a {}D mesh holds {kind} cells",
+                mesh.dim
             ))
-            .help("give every point one number"));
+            .help("cells have the dimension of the mesh; give faces as facet sets"));
         }
-        for (p, x) in self.points.iter().enumerate() {
-            let id = self.point_ids[p];
-            if x.iter().any(|x| !x.is_finite()) {
-                return Err(MeshError::new(format!(
-                    "point {id} has a coordinate that is not finite: ({}, {}, {})",
-                    x[0], x[1], x[2]
-                ))
-                .help("repair the mesh where it was made"));
-            }
-            if self.dim == 2 && x[2] != 0.0 {
-                return Err(
-                    MeshError::new(format!("point {id} of a 2D mesh has z = {}", x[2]))
-                        .help("a 2D mesh lies in the plane z = 0"),
-                );
-            }
-        }
-        Ok(())
-    }
-
-    fn check_blocks(&self) -> Result<(), MeshError> {
-        if self.cell_count() == 0 {
-            return Err(MeshError::new("the mesh has no cells").help(format!(
-                "a {}D mesh needs cells of dimension {}",
-                self.dim, self.dim
-            )));
-        }
-        for (index, block) in self.blocks.iter().enumerate() {
-            let kind = block.kind;
-            if kind.dim() != self.dim {
-                return Err(MeshError::new(format!(
-                    "block {index} of a {}D mesh holds {kind} cells",
-                    self.dim
-                ))
-                .help("cells have the dimension of the mesh; give faces as facet sets"));
-            }
-            if block.connectivity.len() != block.cell_ids.len() * kind.node_count() {
-                return Err(MeshError::new(format!(
-                    "block {index} lists {} nodes for {} cells of kind {kind}",
-                    block.connectivity.len(),
-                    block.cell_ids.len()
-                ))
-                .help(format!("a {kind} has {} nodes", kind.node_count())));
-            }
-            for (nodes, id) in block
-                .connectivity
-                .chunks_exact(kind.node_count())
-                .zip(&block.cell_ids)
-            {
-                if let Some(p) = nodes.iter().find(|&&p| p >= self.points.len()) {
-                    return Err(MeshError::new(format!(
-                        "cell {id} ({kind}) uses the point at position {p} of {}",
-                        self.points.len()
-                    ))
-                    .help("every node of a cell must be a point of the mesh"));
-                }
-            }
-        }
-        Ok(())
-    }
-
-    fn check_sets(&self) -> Result<(), MeshError> {
-        let missing = |what: &str, name: &str| {
-            Err(MeshError::new(format!(
-                "the set \"{name}\" names a {what} that does not exist"
+        if block.connectivity.len() != block.cell_ids.len() * kind.node_count() {
+            return Err(MeshError::new(format!(
+                "block {index} lists {} nodes for {} cells of kind {kind}",
+                block.connectivity.len(),
+                block.cell_ids.len()
             ))
-            .help("make the set from the mesh it belongs to"))
-        };
-        let exists = |c: &CellRef| {
-            self.blocks
-                .get(c.block)
-                .is_some_and(|b| c.cell < b.cell_ids.len())
-        };
-        for (name, points) in &self.point_sets {
-            if points.iter().any(|&p| p >= self.points.len()) {
-                return missing("point", name);
-            }
+            .help(format!("a {kind} has {} nodes", kind.node_count())));
         }
-        for (name, cells) in &self.cell_sets {
-            if !cells.iter().all(exists) {
-                return missing("cell", name);
-            }
-        }
-        for (name, facets) in &self.facet_sets {
-            let valid = |f: &super::FacetRef| {
-                exists(&f.cell) && f.face < self.cell_kind(f.cell).reference().faces().len()
-            };
-            if !facets.iter().all(valid) {
-                return missing("facet", name);
-            }
-        }
-        Ok(())
-    }
-
-    /// A face joins two cells at most, and these agree about its mid-side nodes.
-    fn check_faces(&self) -> Result<(), MeshError> {
-        for users in self.shared_faces().chunk_by(|a, b| a.0 == b.0) {
-            let cells: Vec<String> = users
-                .iter()
-                .map(|(_, f)| self.cell_id(f.cell).to_string())
-                .collect();
-            if users.len() > 2 {
+        for (nodes, id) in block
+            .connectivity
+            .chunks_exact(kind.node_count())
+            .zip(&block.cell_ids)
+        {
+            if let Some(p) = nodes.iter().find(|&&p| p >= mesh.points.len()) {
                 return Err(MeshError::new(format!(
-                    "the cells {} share one face",
-                    cells.join(", ")
+                    "cell {id} ({kind}) uses the point at position {p} of {}",
+                    mesh.points.len()
                 ))
-                .help("a face belongs to two cells at most; look for cells given twice"));
-            }
-            if users.len() == 2 {
-                let sorted = |f| {
-                    let mut points = self.facet_points(f).1;
-                    points.sort_unstable();
-                    points
-                };
-                if sorted(users[0].1) != sorted(users[1].1) {
-                    return Err(MeshError::new(format!(
-                        "the cells {} share the corners of a face but not its mid-side nodes",
-                        cells.join(" and ")
-                    ))
-                    .help("use cells of one order, or tie them as separate bodies"));
-                }
+                .help("every node of a cell must be a point of the mesh"));
             }
         }
-        Ok(())
     }
+    Ok(())
+}
 
-    fn check_jacobian(&self, cell: CellRef) -> Result<(), MeshError> {
-        let kind = self.cell_kind(cell);
-        let points = self.cell_points(cell);
-        let reference = kind.reference();
-        let corners = reference.nodes()[..kind.corner_count()].iter().copied();
-        let origin = self.points[points[0]];
-        let size = points
-            .iter()
-            .map(|&p| distance(self.points[p], origin))
-            .fold(0.0, f64::max);
-        let worst = corners
-            .chain(reference.quadrature().iter().map(|q| q.xi))
-            .map(|xi| shape_quality(&self.jacobian(cell, xi), self.dim, size))
-            .fold(f64::INFINITY, f64::min);
-        if worst > COLLAPSED {
-            return Ok(());
-        }
-        let (what, help) = if worst < -COLLAPSED {
-            (
-                "negative",
-                "its nodes are in the wrong order or it is folded over",
-            )
-        } else {
-            (
-                "collapsed",
-                "two of its nodes coincide or an angle is 180 degrees",
-            )
-        };
+fn check_sets(mesh: &Mesh) -> Result<(), MeshError> {
+    let missing = |what: &str, name: &str| {
         Err(MeshError::new(format!(
-            "cell {} ({kind}) has a {what} Jacobian: {worst:.3e} of that of a right-angled cell with its edges",
-            self.cell_id(cell)
+            "the set \"{name}\" names a {what} that does not exist"
         ))
-        .help(format!("{help}; repair the mesh there")))
+        .help("make the set from the mesh it belongs to"))
+    };
+    let exists = |c: &CellRef| {
+        mesh.blocks
+            .get(c.block)
+            .is_some_and(|b| c.cell < b.cell_ids.len())
+    };
+    for (name, points) in &mesh.point_sets {
+        if points.iter().any(|&p| p >= mesh.points.len()) {
+            return missing("point", name);
+        }
     }
+    for (name, cells) in &mesh.cell_sets {
+        if !cells.iter().all(exists) {
+            return missing("cell", name);
+        }
+    }
+    for (name, facets) in &mesh.facet_sets {
+        let valid = |f: &super::FacetRef| {
+            exists(&f.cell) && f.face < mesh.cell_kind(f.cell).reference().faces().len()
+        };
+        if !facets.iter().all(valid) {
+            return missing("facet", name);
+        }
+    }
+    Ok(())
+}
+
+/// A face joins two cells at most, and these agree about its mid-side nodes.
+fn check_faces(mesh: &Mesh) -> Result<(), MeshError> {
+    for users in mesh.shared_faces().chunk_by(|a, b| a.0 == b.0) {
+        let cells: Vec<String> = users
+            .iter()
+            .map(|(_, f)| mesh.cell_id(f.cell).to_string())
+            .collect();
+        if users.len() > 2 {
+            return Err(
+                MeshError::new(format!("the cells {} share one face", cells.join(", ")))
+                    .help("a face belongs to two cells at most; look for cells given twice"),
+            );
+        }
+        if users.len() == 2 {
+            let sorted = |f| {
+                let mut points = mesh.facet_points(f).1;
+                points.sort_unstable();
+                points
+            };
+            if sorted(users[0].1) != sorted(users[1].1) {
+                return Err(MeshError::new(format!(
+                    "the cells {} share the corners of a face but not its mid-side nodes",
+                    cells.join(" and ")
+                ))
+                .help("use cells of one order, or tie them as separate bodies"));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn check_jacobian(mesh: &Mesh, cell: CellRef) -> Result<(), MeshError> {
+    let kind = mesh.cell_kind(cell);
+    let points = mesh.cell_points(cell);
+    let reference = kind.reference();
+    let corners = reference.nodes()[..kind.corner_count()].iter().copied();
+    let origin = mesh.points[points[0]];
+    let size = points
+        .iter()
+        .map(|&p| distance(mesh.points[p], origin))
+        .fold(0.0, f64::max);
+    let worst = corners
+        .chain(reference.quadrature().iter().map(|q| q.xi))
+        .map(|xi| shape_quality(&geometry::cell_jacobian(mesh, cell, xi), mesh.dim, size))
+        .fold(f64::INFINITY, f64::min);
+    if worst > COLLAPSED {
+        return Ok(());
+    }
+    let (what, help) = if worst < -COLLAPSED {
+        (
+            "negative",
+            "its nodes are in the wrong order or it is folded over",
+        )
+    } else {
+        (
+            "collapsed",
+            "two of its nodes coincide or an angle is 180 degrees",
+        )
+    };
+    Err(MeshError::new(format!(
+        "cell {} ({kind}) has a {what} Jacobian: {worst:.3e} of that of a right-angled cell with its edges",
+        mesh.cell_id(cell)
+    ))
+    .help(format!("{help}; repair the mesh there")))
 }
 
 #[cfg(test)]
@@ -232,14 +230,14 @@ mod tests {
     }
 
     fn message(mesh: &Mesh) -> String {
-        mesh.check().unwrap_err().message
+        check(mesh).unwrap_err().message
     }
 
     #[test]
     fn a_good_mesh_passes() {
         let mesh = grid();
-        mesh.check().unwrap();
-        assert!(mesh.unused_points().is_empty());
+        check(&mesh).unwrap();
+        assert!(unused_points(&mesh).is_empty());
     }
 
     #[test]
@@ -281,14 +279,13 @@ mod tests {
         assert!(message(&mesh).contains("share one face"));
 
         assert!(
-            Mesh {
+            check(&Mesh {
                 dim: 2,
                 ..Mesh::default()
-            }
-            .check()
+            })
             .is_err()
         );
-        assert!(Mesh::default().check().is_err());
+        assert!(check(&Mesh::default()).is_err());
     }
 
     #[test]
@@ -296,8 +293,8 @@ mod tests {
         let mut mesh = grid();
         mesh.points.push([7.0, 7.0, 0.0]);
         mesh.point_ids.push(1);
-        mesh.check().unwrap();
-        assert_eq!(mesh.unused_points(), [6]);
+        check(&mesh).unwrap();
+        assert_eq!(unused_points(&mesh), [6]);
     }
 
     #[test]
@@ -305,6 +302,6 @@ mod tests {
         let mesh = Rectangle::new([0.0, 0.0], [1.0, 1e-7], [1, 1])
             .generate()
             .unwrap();
-        mesh.check().unwrap();
+        check(&mesh).unwrap();
     }
 }

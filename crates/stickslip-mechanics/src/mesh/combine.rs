@@ -14,123 +14,120 @@ pub struct Appended {
     pub blocks: Range<usize>,
 }
 
-impl Mesh {
-    /// Appends another mesh: its points and blocks follow, its sets are renamed `prefix.name` (or keep their names
-    /// if `prefix` is empty), and the numbers of the user stay as they are. An empty `self` takes its dimension.
-    ///
-    /// # Errors
-    /// If the dimensions differ or a renamed set exists already; `self` is then unchanged.
-    pub fn append(&mut self, other: &Mesh, prefix: &str) -> Result<Appended, MeshError> {
-        if self.points.is_empty() && self.blocks.is_empty() {
-            self.dim = other.dim;
-        } else if self.dim != other.dim {
-            return Err(MeshError::new(format!(
-                "a {}D mesh cannot be joined to a {}D mesh",
-                other.dim, self.dim
-            ))
-            .help("all bodies of a problem have the same dimension"));
+/// Appends another mesh: its points and blocks follow, its sets are renamed `prefix.name` (or keep their names
+/// if `prefix` is empty), and the numbers of the user stay as they are. An empty `mesh` takes its dimension.
+///
+/// # Errors
+/// If the dimensions differ or a renamed set exists already; `mesh` is then unchanged.
+pub fn append(mesh: &mut Mesh, other: &Mesh, prefix: &str) -> Result<Appended, MeshError> {
+    if mesh.points.is_empty() && mesh.blocks.is_empty() {
+        mesh.dim = other.dim;
+    } else if mesh.dim != other.dim {
+        return Err(MeshError::new(format!(
+            "a {}D mesh cannot be joined to a {}D mesh",
+            other.dim, mesh.dim
+        ))
+        .help("all bodies of a problem have the same dimension"));
+    }
+    let rename = |name: &String| {
+        if prefix.is_empty() {
+            name.clone()
+        } else {
+            format!("{prefix}.{name}")
         }
-        let rename = |name: &String| {
-            if prefix.is_empty() {
-                name.clone()
-            } else {
-                format!("{prefix}.{name}")
-            }
-        };
-        let taken = other
-            .point_sets
-            .keys()
-            .find(|&n| self.point_sets.contains_key(&rename(n)))
-            .or_else(|| {
-                other
-                    .cell_sets
-                    .keys()
-                    .find(|&n| self.cell_sets.contains_key(&rename(n)))
-            })
-            .or_else(|| {
-                other
-                    .facet_sets
-                    .keys()
-                    .find(|&n| self.facet_sets.contains_key(&rename(n)))
-            });
-        if let Some(name) = taken {
-            return Err(
-                MeshError::new(format!("there are two sets named \"{}\"", rename(name)))
-                    .help("append each mesh under a name of its own"),
-            );
-        }
-
-        let (point, block) = (self.points.len(), self.blocks.len());
-        let cell = |c: &CellRef| CellRef {
-            block: c.block + block,
-            cell: c.cell,
-        };
-        let facet = |f: &FacetRef| FacetRef {
-            cell: cell(&f.cell),
-            face: f.face,
-        };
-        self.points.extend_from_slice(&other.points);
-        self.point_ids.extend_from_slice(&other.point_ids);
-        self.blocks.extend(other.blocks.iter().map(|b| Block {
-            connectivity: b.connectivity.iter().map(|p| p + point).collect(),
-            ..b.clone()
-        }));
-        for (name, points) in &other.point_sets {
-            let moved = points.iter().map(|p| p + point).collect();
-            self.point_sets.insert(rename(name), moved);
-        }
-        for (name, cells) in &other.cell_sets {
-            self.cell_sets
-                .insert(rename(name), cells.iter().map(cell).collect());
-        }
-        for (name, facets) in &other.facet_sets {
-            self.facet_sets
-                .insert(rename(name), facets.iter().map(facet).collect());
-        }
-        Ok(Appended {
-            points: point..self.points.len(),
-            blocks: block..self.blocks.len(),
+    };
+    let taken = other
+        .point_sets
+        .keys()
+        .find(|&n| mesh.point_sets.contains_key(&rename(n)))
+        .or_else(|| {
+            other
+                .cell_sets
+                .keys()
+                .find(|&n| mesh.cell_sets.contains_key(&rename(n)))
         })
+        .or_else(|| {
+            other
+                .facet_sets
+                .keys()
+                .find(|&n| mesh.facet_sets.contains_key(&rename(n)))
+        });
+    if let Some(name) = taken {
+        return Err(
+            MeshError::new(format!("there are two sets named \"{}\"", rename(name)))
+                .help("append each mesh under a name of its own"),
+        );
     }
 
-    /// The mesh of some of the cells, in the order of this mesh, with their points and the parts of the sets that
-    /// remain; sets of which nothing remains are left out. The numbers of the user are kept.
-    pub fn extract(&self, cells: &[CellRef]) -> Mesh {
-        let mut cells = cells.to_vec();
-        cells.sort_unstable();
-        cells.dedup();
-        let points = self.points_of_cells(&cells);
-        let new_point = |p: &usize| points.binary_search(p).ok();
+    let (point, block) = (mesh.points.len(), mesh.blocks.len());
+    let cell = |c: &CellRef| CellRef {
+        block: c.block + block,
+        cell: c.cell,
+    };
+    let facet = |f: &FacetRef| FacetRef {
+        cell: cell(&f.cell),
+        face: f.face,
+    };
+    mesh.points.extend_from_slice(&other.points);
+    mesh.point_ids.extend_from_slice(&other.point_ids);
+    mesh.blocks.extend(other.blocks.iter().map(|b| Block {
+        connectivity: b.connectivity.iter().map(|p| p + point).collect(),
+        ..b.clone()
+    }));
+    for (name, points) in &other.point_sets {
+        let moved = points.iter().map(|p| p + point).collect();
+        mesh.point_sets.insert(rename(name), moved);
+    }
+    for (name, cells) in &other.cell_sets {
+        mesh.cell_sets
+            .insert(rename(name), cells.iter().map(cell).collect());
+    }
+    for (name, facets) in &other.facet_sets {
+        mesh.facet_sets
+            .insert(rename(name), facets.iter().map(facet).collect());
+    }
+    Ok(Appended {
+        points: point..mesh.points.len(),
+        blocks: block..mesh.blocks.len(),
+    })
+}
 
-        let mut blocks: Vec<Block> = Vec::new();
-        let mut new_cells: Vec<CellRef> = Vec::with_capacity(cells.len());
-        for group in cells.chunk_by(|a, b| a.block == b.block) {
-            let old = &self.blocks[group[0].block];
-            new_cells.extend((0..group.len()).map(|cell| CellRef {
-                block: blocks.len(),
-                cell,
-            }));
-            blocks.push(Block {
-                kind: old.kind,
-                connectivity: group
-                    .iter()
-                    .flat_map(|&c| self.cell_points(c).iter().filter_map(new_point))
-                    .collect(),
-                cell_ids: group.iter().map(|c| old.cell_ids[c.cell]).collect(),
-            });
-        }
-        let new_cell = |c: &CellRef| cells.binary_search(c).ok().map(|i| new_cells[i]);
-        let new_facet =
-            |f: &FacetRef| new_cell(&f.cell).map(|cell| FacetRef { cell, face: f.face });
-        Mesh {
-            dim: self.dim,
-            points: points.iter().map(|&p| self.points[p]).collect(),
-            point_ids: points.iter().map(|&p| self.point_ids[p]).collect(),
-            blocks,
-            point_sets: part_of(&self.point_sets, new_point),
-            cell_sets: part_of(&self.cell_sets, new_cell),
-            facet_sets: part_of(&self.facet_sets, new_facet),
-        }
+/// The mesh of some of the cells, in the order of this mesh, with their points and the parts of the sets that
+/// remain; sets of which nothing remains are left out. The numbers of the user are kept.
+pub fn extract(mesh: &Mesh, cells: &[CellRef]) -> Mesh {
+    let mut cells = cells.to_vec();
+    cells.sort_unstable();
+    cells.dedup();
+    let points = mesh.points_of_cells(&cells);
+    let new_point = |p: &usize| points.binary_search(p).ok();
+
+    let mut blocks: Vec<Block> = Vec::new();
+    let mut new_cells: Vec<CellRef> = Vec::with_capacity(cells.len());
+    for group in cells.chunk_by(|a, b| a.block == b.block) {
+        let old = &mesh.blocks[group[0].block];
+        new_cells.extend((0..group.len()).map(|cell| CellRef {
+            block: blocks.len(),
+            cell,
+        }));
+        blocks.push(Block {
+            kind: old.kind,
+            connectivity: group
+                .iter()
+                .flat_map(|&c| mesh.cell_points(c).iter().filter_map(new_point))
+                .collect(),
+            cell_ids: group.iter().map(|c| old.cell_ids[c.cell]).collect(),
+        });
+    }
+    let new_cell = |c: &CellRef| cells.binary_search(c).ok().map(|i| new_cells[i]);
+    let new_facet = |f: &FacetRef| new_cell(&f.cell).map(|cell| FacetRef { cell, face: f.face });
+    Mesh {
+        dim: mesh.dim,
+        points: points.iter().map(|&p| mesh.points[p]).collect(),
+        point_ids: points.iter().map(|&p| mesh.point_ids[p]).collect(),
+        blocks,
+        point_sets: part_of(&mesh.point_sets, new_point),
+        cell_sets: part_of(&mesh.cell_sets, new_cell),
+        facet_sets: part_of(&mesh.facet_sets, new_facet),
     }
 }
 
@@ -152,6 +149,8 @@ fn part_of<T>(sets: &Sets<T>, new: impl Fn(&T) -> Option<T>) -> Sets<T> {
 mod tests {
     use super::super::generators::{Generate, Rectangle};
     use super::*;
+    use crate::mesh::check;
+    use crate::mesh::geometry;
 
     #[test]
     fn parts_of_a_joined_mesh_are_the_originals() {
@@ -162,17 +161,17 @@ mod tests {
             .generate()
             .unwrap();
         let mut both = Mesh::default();
-        both.append(&lower, "lower").unwrap();
-        let place = both.append(&upper, "upper").unwrap();
-        both.check().unwrap();
+        append(&mut both, &lower, "lower").unwrap();
+        let place = append(&mut both, &upper, "upper").unwrap();
+        check::check(&both).unwrap();
         assert_eq!(place.points, lower.points.len()..both.points.len());
         assert_eq!(place.blocks, 1..2);
-        assert!((both.measure() - 4.0).abs() < 1e-14);
+        assert!((geometry::measure(&both) - 4.0).abs() < 1e-14);
         let tops = both.facet_set_points("upper.top").unwrap();
         assert!(tops.iter().all(|&p| both.points[p][1] == 2.0));
 
         let cells: Vec<CellRef> = both.cells().filter(|c| c.block == 1).collect();
-        let mut part = both.extract(&cells);
+        let mut part = extract(&both, &cells);
         assert_eq!(part.points, upper.points);
         assert_eq!(part.point_ids, upper.point_ids);
         assert_eq!(part.blocks, upper.blocks);
@@ -190,12 +189,12 @@ mod tests {
             .generate()
             .unwrap();
         let last = CellRef { block: 0, cell: 2 };
-        let part = mesh.extract(&[last, last]);
-        part.check().unwrap();
+        let part = extract(&mesh, &[last, last]);
+        check::check(&part).unwrap();
         assert_eq!(part.cell_count(), 1);
         assert_eq!(part.blocks[0].cell_ids, [mesh.blocks[0].cell_ids[2]]);
         assert!(part.facet_sets.contains_key("right") && !part.facet_sets.contains_key("left"));
-        assert!(mesh.extract(&[]).blocks.is_empty());
+        assert!(extract(&mesh, &[]).blocks.is_empty());
     }
 
     #[test]
@@ -204,19 +203,24 @@ mod tests {
             .generate()
             .unwrap();
         let mut twice = Mesh::default();
-        twice.append(&mesh, "a").unwrap();
+        append(&mut twice, &mesh, "a").unwrap();
         let before = twice.clone();
-        assert!(twice.append(&mesh, "a").unwrap_err().message.contains("a."));
         assert!(
-            twice
-                .append(
-                    &Mesh {
-                        dim: 3,
-                        ..Mesh::default()
-                    },
-                    "b"
-                )
-                .is_err()
+            append(&mut twice, &mesh, "a")
+                .unwrap_err()
+                .message
+                .contains("a.")
+        );
+        assert!(
+            append(
+                &mut twice,
+                &Mesh {
+                    dim: 3,
+                    ..Mesh::default()
+                },
+                "b"
+            )
+            .is_err()
         );
         assert_eq!(twice, before);
     }

@@ -4,44 +4,42 @@ use super::{CellRef, Mesh};
 use crate::math::{Mat3, Vec3, determinant, distance, norm};
 use crate::shape::{ElementKind, MAX_NODES};
 
-impl Mesh {
-    /// The derivative of position with respect to the reference coordinates of a cell, `j[i][a] = ∂x_i/∂ξ_a`
-    /// `[length]`. In 2D the third row and column are those of the unit matrix, so that the determinant is the ratio of
-    /// areas.
-    pub fn jacobian(&self, cell: CellRef, xi: [f64; 3]) -> Mat3 {
-        jacobian(self.cell_kind(cell), xi, |i| {
-            self.points[self.cell_points(cell)[i]]
-        })
-    }
+/// The derivative of position with respect to the reference coordinates of a cell, `j[i][a] = ∂x_i/∂ξ_a`
+/// `[length]`. In 2D the third row and column are those of the unit matrix, so that the determinant is the ratio of
+/// areas.
+pub fn cell_jacobian(mesh: &Mesh, cell: CellRef, xi: [f64; 3]) -> Mat3 {
+    jacobian(mesh.cell_kind(cell), xi, |i| {
+        mesh.points[mesh.cell_points(cell)[i]]
+    })
+}
 
-    /// Area (2D) or volume (3D) of a cell.
-    pub fn cell_measure(&self, cell: CellRef) -> f64 {
-        let rule = self.cell_kind(cell).reference().quadrature();
-        rule.iter()
-            .map(|q| q.weight * determinant(&self.jacobian(cell, q.xi)))
-            .sum()
-    }
+/// Area (2D) or volume (3D) of a cell.
+pub fn cell_measure(mesh: &Mesh, cell: CellRef) -> f64 {
+    let rule = mesh.cell_kind(cell).reference().quadrature();
+    rule.iter()
+        .map(|q| q.weight * determinant(&cell_jacobian(mesh, cell, q.xi)))
+        .sum()
+}
 
-    /// Area (2D) or volume (3D) of all cells.
-    pub fn measure(&self) -> f64 {
-        self.cells().map(|cell| self.cell_measure(cell)).sum()
-    }
+/// Area (2D) or volume (3D) of all cells.
+pub fn measure(mesh: &Mesh) -> f64 {
+    mesh.cells().map(|cell| cell_measure(mesh, cell)).sum()
+}
 
-    /// Lowest and highest coordinates; `None` without points.
-    pub fn bounding_box(&self) -> Option<(Vec3, Vec3)> {
-        let first = *self.points.first()?;
-        Some(self.points.iter().fold((first, first), |(lo, hi), p| {
-            (
-                std::array::from_fn(|i| lo[i].min(p[i])),
-                std::array::from_fn(|i| hi[i].max(p[i])),
-            )
-        }))
-    }
+/// Lowest and highest coordinates; `None` without points.
+pub fn bounding_box(mesh: &Mesh) -> Option<(Vec3, Vec3)> {
+    let first = *mesh.points.first()?;
+    Some(mesh.points.iter().fold((first, first), |(lo, hi), p| {
+        (
+            std::array::from_fn(|i| lo[i].min(p[i])),
+            std::array::from_fn(|i| hi[i].max(p[i])),
+        )
+    }))
+}
 
-    /// Diagonal of the bounding box `[length]`; zero without points.
-    pub fn diameter(&self) -> f64 {
-        self.bounding_box().map_or(0.0, |(lo, hi)| distance(lo, hi))
-    }
+/// Diagonal of the bounding box `[length]`; zero without points.
+pub fn diameter(mesh: &Mesh) -> f64 {
+    bounding_box(mesh).map_or(0.0, |(lo, hi)| distance(lo, hi))
 }
 
 /// See [`Mesh::jacobian`].

@@ -1,12 +1,12 @@
 //! Meshes: points, blocks of cells of one kind, named sets, boundary, generators.
 
 mod boundary;
-mod check;
-mod combine;
-mod cut;
+pub mod check;
+pub mod combine;
+pub mod cut;
 pub mod generators;
-mod geometry;
-mod select;
+pub mod geometry;
+pub mod select;
 
 pub use combine::Appended;
 pub use cut::Cut;

@@ -2,21 +2,20 @@
 
 use super::{FacetRef, Mesh};
 
-impl Mesh {
-    /// The boundary facets all of whose points are among `points` (sorted).
-    pub fn boundary_within(&self, points: &[usize]) -> Vec<FacetRef> {
-        let mut boundary = self.boundary();
-        boundary.retain(|&facet| {
-            let (_, nodes) = self.facet_points(facet);
-            nodes.iter().all(|p| points.binary_search(p).is_ok())
-        });
-        boundary
-    }
+/// The boundary facets all of whose points are among `points` (sorted).
+pub fn boundary_within(mesh: &Mesh, points: &[usize]) -> Vec<FacetRef> {
+    let mut boundary = mesh.boundary();
+    boundary.retain(|&facet| {
+        let (_, nodes) = mesh.facet_points(facet);
+        nodes.iter().all(|p| points.binary_search(p).is_ok())
+    });
+    boundary
 }
 
 #[cfg(test)]
 mod tests {
     use super::super::generators::{Generate, Rectangle};
+    use super::boundary_within;
 
     #[test]
     fn facets_are_found_by_their_points() {
@@ -32,9 +31,9 @@ mod tests {
                 })
                 .collect()
         };
-        let top = mesh.boundary_within(&high(-1.0, 5.0));
+        let top = boundary_within(&mesh, &high(-1.0, 5.0));
         assert_eq!(&top, &mesh.facet_sets["top"]);
-        let part = mesh.boundary_within(&high(0.9, 3.1));
+        let part = boundary_within(&mesh, &high(0.9, 3.1));
         assert_eq!(part.len(), 2);
         assert!(part.iter().all(|f| top.contains(f)));
     }

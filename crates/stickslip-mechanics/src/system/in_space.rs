@@ -8,6 +8,7 @@ use super::frame_pose::FramePose;
 use super::links::columns;
 use super::{Assembler, ContactBlock};
 use crate::math::{Vec3, larger};
+use crate::system::links;
 
 /// Frames at one state, and where the points of the bodies are in it: what is assembled in space is transformed by that.
 #[derive(Debug, Clone, Default)]
@@ -102,7 +103,7 @@ impl InSpace {
     pub fn blocks(&self, blocks: &mut [ContactBlock]) {
         for block in blocks {
             if let Some((dofs, rows)) = self.replace(&block.dofs) {
-                *block = block.congruent(dofs, &rows);
+                *block = links::congruent_block(block, dofs, &rows);
             }
         }
     }

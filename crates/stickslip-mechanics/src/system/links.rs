@@ -347,7 +347,7 @@ impl Links {
     /// The block `Tᵀ K T` over the dofs that move those of a block; `None` if none of them is of a rigid body.
     pub fn transform(&self, block: &ContactBlock) -> Option<ContactBlock> {
         let (dofs, rows) = self.replace(&block.dofs)?;
-        Some(block.congruent(dofs, &rows))
+        Some(congruent_block(block, dofs, &rows))
     }
 
     /// The dofs that move these, each once; `None` if none of them is of a rigid body.
@@ -391,21 +391,19 @@ impl Links {
     }
 }
 
-impl ContactBlock {
-    /// `Tᵀ K T` over the dofs that move those of the block, with the rows of `T`.
-    pub(super) fn congruent<const W: usize>(
-        &self,
-        dofs: Vec<usize>,
-        rows: &[[(usize, f64); W]],
-    ) -> ContactBlock {
-        let m = dofs.len();
-        ContactBlock {
-            hessian: congruent(rows, m, &self.hessian),
-            surrogate: congruent(rows, m, &self.surrogate),
-            rows: columns(rows, m, &self.rows),
-            change: columns(rows, m, &self.change),
-            dofs,
-        }
+/// `Tᵀ K T` over the dofs that move those of the block, with the rows of `T`.
+pub(super) fn congruent_block<const W: usize>(
+    block: &ContactBlock,
+    dofs: Vec<usize>,
+    rows: &[[(usize, f64); W]],
+) -> ContactBlock {
+    let m = dofs.len();
+    ContactBlock {
+        hessian: congruent(rows, m, &block.hessian),
+        surrogate: congruent(rows, m, &block.surrogate),
+        rows: columns(rows, m, &block.rows),
+        change: columns(rows, m, &block.change),
+        dofs,
     }
 }
 

@@ -10,6 +10,7 @@ use crate::math::add;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
+use crate::model::rigid::free_bodies;
 use crate::system::{Stage, State, StepFailure};
 
 /// A rigid-body mode that neither supports nor springs hold.
@@ -90,7 +91,7 @@ pub struct InterfaceReport {
 
 /// Motions of each body that the supports and springs acting at `t` do not hold.
 pub fn free_modes(view: &View, t: f64) -> Vec<FreeMode> {
-    let bodies = view.free_bodies(t).into_iter();
+    let bodies = free_bodies::free_bodies(view, t).into_iter();
     let modes = bodies.flat_map(|free| {
         let body = free.name(view.model);
         let modes = free.motions.into_iter();
@@ -158,65 +159,63 @@ pub(crate) fn beginning<'a>(start: &'a State, end: &'a State) -> Stage<'a> {
     }
 }
 
-impl View<'_> {
-    /// What there is to say of a model before it runs, given the gaps at its start by interface.
-    pub(crate) fn check(&self, gaps: &[Vec<f64>], findings: Vec<Finding>) -> CheckReport {
-        let start = self.frame.state.t;
-        let steps = self.model.steps.first();
-        let end = start + steps.map_or(1.0, |s| 1e-9 * (s.end - s.start));
-        let interfaces = self.contact.interfaces.iter().zip(gaps);
-        let interfaces = interfaces.map(|(i, gaps)| inspect(i, gaps)).collect();
-        let mesh = &self.model.mesh;
-        let bodies = self
+/// What there is to say of a model before it runs, given the gaps at its start by interface.
+pub(crate) fn check(view: &View, gaps: &[Vec<f64>], findings: Vec<Finding>) -> CheckReport {
+    let start = view.frame.state.t;
+    let steps = view.model.steps.first();
+    let end = start + steps.map_or(1.0, |s| 1e-9 * (s.end - s.start));
+    let interfaces = view.contact.interfaces.iter().zip(gaps);
+    let interfaces = interfaces.map(|(i, gaps)| inspect(i, gaps)).collect();
+    let mesh = &view.model.mesh;
+    let bodies = view
+        .model
+        .bodies
+        .iter()
+        .map(|b| {
+            let blocks = &mesh.blocks[b.blocks.clone()];
+            let mut kinds: Vec<&str> = blocks.iter().map(|x| x.kind.name()).collect();
+            kinds.dedup();
+            let mut low = [f64::INFINITY; 3];
+            let mut high = [f64::NEG_INFINITY; 3];
+            for p in &mesh.points[b.points.clone()] {
+                for c in 0..3 {
+                    low[c] = low[c].min(p[c]);
+                    high[c] = high[c].max(p[c]);
+                }
+            }
+            let prefix = format!("{}.", b.name);
+            let mut sets: Vec<String> = mesh
+                .point_sets
+                .keys()
+                .chain(mesh.facet_sets.keys())
+                .chain(mesh.cell_sets.keys())
+                .filter_map(|k| k.strip_prefix(&prefix).map(str::to_string))
+                .collect();
+            sets.sort();
+            sets.dedup();
+            BodyReport {
+                name: b.name.clone(),
+                points: b.points.len(),
+                cells: blocks.iter().map(|x| x.cell_ids.len()).sum(),
+                kinds: kinds.join(", "),
+                rigid: b.rigid.map(|r| r.mass),
+                low,
+                high,
+                sets,
+            }
+        })
+        .collect();
+    CheckReport {
+        bodies,
+        interfaces,
+        free: free_modes(view, end),
+        steps: view
             .model
-            .bodies
+            .steps
             .iter()
-            .map(|b| {
-                let blocks = &mesh.blocks[b.blocks.clone()];
-                let mut kinds: Vec<&str> = blocks.iter().map(|x| x.kind.name()).collect();
-                kinds.dedup();
-                let mut low = [f64::INFINITY; 3];
-                let mut high = [f64::NEG_INFINITY; 3];
-                for p in &mesh.points[b.points.clone()] {
-                    for c in 0..3 {
-                        low[c] = low[c].min(p[c]);
-                        high[c] = high[c].max(p[c]);
-                    }
-                }
-                let prefix = format!("{}.", b.name);
-                let mut sets: Vec<String> = mesh
-                    .point_sets
-                    .keys()
-                    .chain(mesh.facet_sets.keys())
-                    .chain(mesh.cell_sets.keys())
-                    .filter_map(|k| k.strip_prefix(&prefix).map(str::to_string))
-                    .collect();
-                sets.sort();
-                sets.dedup();
-                BodyReport {
-                    name: b.name.clone(),
-                    points: b.points.len(),
-                    cells: blocks.iter().map(|x| x.cell_ids.len()).sum(),
-                    kinds: kinds.join(", "),
-                    rigid: b.rigid.map(|r| r.mass),
-                    low,
-                    high,
-                    sets,
-                }
-            })
-            .collect();
-        CheckReport {
-            bodies,
-            interfaces,
-            free: free_modes(self, end),
-            steps: self
-                .model
-                .steps
-                .iter()
-                .map(|s| format!("{}: {} to {}", s.name, s.start, s.end))
-                .collect(),
-            findings,
-        }
+            .map(|s| format!("{}: {} to {}", s.name, s.start, s.end))
+            .collect(),
+        findings,
     }
 }
 

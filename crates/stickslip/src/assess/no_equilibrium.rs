@@ -16,6 +16,7 @@ use crate::math::{
 use crate::model::rigid::drivers::named;
 use crate::model::rigid::held::{NO_PART, Unheld};
 use crate::model::rigid::modes::{Mode, modes};
+use crate::model::rigid::{drivers, held};
 
 /// Displacements and gaps over the size of the smallest body up to which points are where they were meshed.
 const SMALL: f64 = 1e-3;
@@ -90,242 +91,248 @@ impl Holds {
     }
 }
 
-impl View<'_> {
-    /// What ends a quasi-static step, or an attempt that failed, from one time to another: at its end no forces of contact can balance the loads.
-    pub(crate) fn refuse_unbalanced(&self, from: f64, to: f64) -> Option<(Finding, RunError)> {
-        let holds = self.holds(to)?;
-        let loads = |t: f64| -> Vec<f64> {
-            let each = holds.motions.iter();
-            each.map(|m| self.push(&holds.all, m, t).total).collect()
-        };
-        let at_end = loads(to);
-        let rest = holds.rest(&at_end, |mu| mu * (1.0 + WIDER) + WIDER, LEFT)?;
-        // What is left pushes against the loads.
-        let mut motion = vec![0.0; holds.all.len()];
-        for (part, own) in rest.iter().zip(&holds.motions) {
-            motion.iter_mut().zip(own).for_each(|(m, o)| *m -= part * o);
-        }
-        let largest = motion
-            .iter()
-            .fold(f64::MIN_POSITIVE, |m, v| f64::max(m, v.abs()));
-        motion.iter_mut().for_each(|v| *v /= largest);
-        let (mut good, mut bad) = (from, to);
-        for _ in 0..HALVINGS {
-            let middle = 0.5 * (good + bad);
-            match holds.rest(&loads(middle), |mu| mu, EXACT) {
-                None => good = middle,
-                Some(_) => bad = middle,
-            }
-        }
-        if bad - from < SMALL * (to - from) {
-            bad = from;
-        }
-        Some(self.say_unbalanced(&holds, &motion, to, bad, least(&holds, &at_end)))
+/// What ends a quasi-static step, or an attempt that failed, from one time to another: at its end no forces of contact can balance the loads.
+pub(crate) fn refuse_unbalanced(view: &View, from: f64, to: f64) -> Option<(Finding, RunError)> {
+    let holds = holds(view, to)?;
+    let loads = |t: f64| -> Vec<f64> {
+        let each = holds.motions.iter();
+        each.map(|m| drivers::push(view, &holds.all, m, t).total)
+            .collect()
+    };
+    let at_end = loads(to);
+    let rest = holds.rest(&at_end, |mu| mu * (1.0 + WIDER) + WIDER, LEFT)?;
+    // What is left pushes against the loads.
+    let mut motion = vec![0.0; holds.all.len()];
+    for (part, own) in rest.iter().zip(&holds.motions) {
+        motion.iter_mut().zip(own).for_each(|(m, o)| *m -= part * o);
     }
-
-    fn say_unbalanced(
-        &self,
-        holds: &Holds,
-        motion: &Unheld,
-        t: f64,
-        first: f64,
-        wanted: Option<f64>,
-    ) -> (Finding, RunError) {
-        let push = self.push(&holds.all, motion, t);
-        let (body, what) = self.describe(&holds.all, motion);
-        let by = named(&push.drivers(), "drives", "drive");
-        let called = self.called();
-        let index = self.model.bodies.iter().position(|b| b.name == body);
-        let touches = holds.close || index.is_some_and(|b| self.touches(b));
-        // What no friction would hold, and turns, is pressed beside what it lies on.
-        let turns = holds.all.iter().zip(motion);
-        let turns = turns
-            .filter(|(_, part)| part.abs() > NO_PART)
-            .any(|(mode, _)| mode.name.starts_with("rotation"));
-        let (cause, sentence) = match touches {
-            true if wanted.is_none() && turns => (
-                DoctorCause::SlidesAway,
-                format!("body {body} tips over or lifts off as a whole ({what})"),
-            ),
-            true => (
-                DoctorCause::SlidesAway,
-                format!("body {body} slides, rolls or lifts off as a whole ({what})"),
-            ),
-            false => (
-                DoctorCause::FreeRigidMode,
-                format!("body {body} is free to move as a rigid body ({what})"),
-            ),
-        };
-        let friction = match wanted {
-            Some(mu) => format!(
-                "friction of {mu:.4} would hold it, {:.4} is the largest there is",
-                holds.mu
-            ),
-            None => "no friction would hold it".to_string(),
-        };
-        let when = match first > self.frame.state.t {
-            true => format!(" from {first:.6e} on"),
-            false => String::new(),
-        };
-        let message = format!(
-            "{called}: there is no equilibrium{when}: {sentence}, {by} it, and contact and friction cannot balance that; {friction}"
-        );
-        let help = match touches {
-            true if wanted.is_none() && turns => {
-                "let the loads press within what the body lies on, or that reach farther, support the motion or hold it by weak springs (`[load.NAME] spring = { stiffness = [...] }`), \
-                 or make the step dynamic if the body is meant to tip"
-            }
-            true => {
-                "lower what drives the body, raise friction, support the motion or hold it by weak springs (`[load.NAME] spring = { stiffness = [...] }`), \
-                 or make the step dynamic if the body is meant to slide or take off"
-            }
-            false => {
-                "support these motions, hold them by weak springs (`[load.NAME] spring = { stiffness = [...] }`), or move the bodies until they touch"
-            }
-        };
-        let drivers = push.drivers();
-        let moved = holds.all.iter().zip(motion);
-        let moved = moved.filter(|(_, part)| part.abs() > NO_PART);
-        let moved: Vec<String> = moved
-            .map(|(mode, _)| self.model.bodies[mode.body].name.clone())
-            .collect();
-        let gone = let_go(self, &moved);
-        let first: String = gone.iter().map(|g| format!("{}; ", g.advice)).collect();
-        let help = format!("{first}{help}");
-        let mut finding = cause
-            .error(message.clone())
-            .blame(body_at(
-                self.model,
-                &body,
-                format!("{what} is held by contact alone"),
-            ))
-            .advise(help.clone());
-        let mut culprits = vec![format!("body {body}: {what} is held by contact alone")];
-        for driver in drivers {
-            culprits.push(format!("{} {}", driver.key, driver.what));
-            finding = finding.blame(Suspect::key(driver.key, driver.what));
+    let largest = motion
+        .iter()
+        .fold(f64::MIN_POSITIVE, |m, v| f64::max(m, v.abs()));
+    motion.iter_mut().for_each(|v| *v /= largest);
+    let (mut good, mut bad) = (from, to);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (good + bad);
+        match holds.rest(&loads(middle), |mu| mu, EXACT) {
+            None => good = middle,
+            Some(_) => bad = middle,
         }
-        for gone in gone {
-            culprits.push(format!("{} {}", gone.key, gone.what));
-            finding = finding.blame(Suspect::key(gone.key, gone.what));
-        }
-        finding.step = Some(self.step_name().to_string());
-        finding.time = Some(self.frame.state.t);
-        let error = RunError {
-            message,
-            time: self.frame.state.t,
-            culprits,
-            help: Some(help),
-        };
-        (finding, error)
     }
+    if bad - from < SMALL * (to - from) {
+        bad = from;
+    }
+    Some(say_unbalanced(
+        view,
+        &holds,
+        &motion,
+        to,
+        bad,
+        least(&holds, &at_end),
+    ))
+}
 
-    /// What may hold the motions that supports, springs and couplings leave free; `None` where there are none, or nothing certain can be said.
-    fn holds(&self, t: f64) -> Option<Holds> {
-        let all = modes(self.model);
-        let motions = self.unheld(t, &all, false);
-        if motions.is_empty() || motions.len() > MOST_MOTIONS {
+fn say_unbalanced(
+    view: &View,
+    holds: &Holds,
+    motion: &Unheld,
+    t: f64,
+    first: f64,
+    wanted: Option<f64>,
+) -> (Finding, RunError) {
+    let push = drivers::push(view, &holds.all, motion, t);
+    let (body, what) = drivers::describe(view, &holds.all, motion);
+    let by = named(&push.drivers(), "drives", "drive");
+    let called = view.called();
+    let index = view.model.bodies.iter().position(|b| b.name == body);
+    let touches = holds.close || index.is_some_and(|b| view.touches(b));
+    // What no friction would hold, and turns, is pressed beside what it lies on.
+    let turns = holds.all.iter().zip(motion);
+    let turns = turns
+        .filter(|(_, part)| part.abs() > NO_PART)
+        .any(|(mode, _)| mode.name.starts_with("rotation"));
+    let (cause, sentence) = match touches {
+        true if wanted.is_none() && turns => (
+            DoctorCause::SlidesAway,
+            format!("body {body} tips over or lifts off as a whole ({what})"),
+        ),
+        true => (
+            DoctorCause::SlidesAway,
+            format!("body {body} slides, rolls or lifts off as a whole ({what})"),
+        ),
+        false => (
+            DoctorCause::FreeRigidMode,
+            format!("body {body} is free to move as a rigid body ({what})"),
+        ),
+    };
+    let friction = match wanted {
+        Some(mu) => format!(
+            "friction of {mu:.4} would hold it, {:.4} is the largest there is",
+            holds.mu
+        ),
+        None => "no friction would hold it".to_string(),
+    };
+    let when = match first > view.frame.state.t {
+        true => format!(" from {first:.6e} on"),
+        false => String::new(),
+    };
+    let message = format!(
+        "{called}: there is no equilibrium{when}: {sentence}, {by} it, and contact and friction cannot balance that; {friction}"
+    );
+    let help = match touches {
+        true if wanted.is_none() && turns => {
+            "let the loads press within what the body lies on, or that reach farther, support the motion or hold it by weak springs (`[load.NAME] spring = { stiffness = [...] }`), \
+             or make the step dynamic if the body is meant to tip"
+        }
+        true => {
+            "lower what drives the body, raise friction, support the motion or hold it by weak springs (`[load.NAME] spring = { stiffness = [...] }`), \
+             or make the step dynamic if the body is meant to slide or take off"
+        }
+        false => {
+            "support these motions, hold them by weak springs (`[load.NAME] spring = { stiffness = [...] }`), or move the bodies until they touch"
+        }
+    };
+    let drivers = push.drivers();
+    let moved = holds.all.iter().zip(motion);
+    let moved = moved.filter(|(_, part)| part.abs() > NO_PART);
+    let moved: Vec<String> = moved
+        .map(|(mode, _)| view.model.bodies[mode.body].name.clone())
+        .collect();
+    let gone = let_go(view, &moved);
+    let first: String = gone.iter().map(|g| format!("{}; ", g.advice)).collect();
+    let help = format!("{first}{help}");
+    let mut finding = cause
+        .error(message.clone())
+        .blame(body_at(
+            view.model,
+            &body,
+            format!("{what} is held by contact alone"),
+        ))
+        .advise(help.clone());
+    let mut culprits = vec![format!("body {body}: {what} is held by contact alone")];
+    for driver in drivers {
+        culprits.push(format!("{} {}", driver.key, driver.what));
+        finding = finding.blame(Suspect::key(driver.key, driver.what));
+    }
+    for gone in gone {
+        culprits.push(format!("{} {}", gone.key, gone.what));
+        finding = finding.blame(Suspect::key(gone.key, gone.what));
+    }
+    finding.step = Some(view.step_name().to_string());
+    finding.time = Some(view.frame.state.t);
+    let error = RunError {
+        message,
+        time: view.frame.state.t,
+        culprits,
+        help: Some(help),
+    };
+    (finding, error)
+}
+
+/// What may hold the motions that supports, springs and couplings leave free; `None` where there are none, or nothing certain can be said.
+fn holds(view: &View, t: f64) -> Option<Holds> {
+    let all = modes(view.model);
+    let motions = held::unheld(view, t, &all, false);
+    if motions.is_empty() || motions.len() > MOST_MOTIONS {
+        return None;
+    }
+    let size = smallest_body(view);
+    let moved = view.constraints(t);
+    let moved = moved.fixed.iter().zip(&moved.values).filter(|(f, _)| **f);
+    let moved = moved
+        .map(|(_, v)| v.abs())
+        .chain(view.frame.state.u.iter().map(|u| u.abs()));
+    if moved.fold(0.0, f64::max) > SMALL * size {
+        return None;
+    }
+    let mut holds = Holds {
+        all,
+        motions,
+        spots: Vec::new(),
+        mu: 0.0,
+        close: false,
+    };
+    let interfaces = view.contact.interfaces.iter();
+    for interface in interfaces.filter(|i| i.schedule.active(t) && !i.laws.tied) {
+        let gap = spots(view, interface, t, &mut holds)?;
+        if gap > SMALL * size {
             return None;
         }
-        let size = self.smallest_body();
-        let moved = self.constraints(t);
-        let moved = moved.fixed.iter().zip(&moved.values).filter(|(f, _)| **f);
-        let moved = moved
-            .map(|(_, v)| v.abs())
-            .chain(self.frame.state.u.iter().map(|u| u.abs()));
-        if moved.fold(0.0, f64::max) > SMALL * size {
-            return None;
-        }
-        let mut holds = Holds {
-            all,
-            motions,
-            spots: Vec::new(),
+        holds.close |= gap <= 1e-9 * size;
+    }
+    for row in view.couplings().stops(t) {
+        let speed = |motion: &Unheld| -> f64 {
+            let parts = holds.all.iter().zip(motion);
+            parts.map(|(m, c)| c * m.along(view.model, row)).sum()
+        };
+        let normal = holds.motions.iter().map(speed).collect();
+        holds.spots.push(Spot {
+            normal,
+            across: Vec::new(),
             mu: 0.0,
-            close: false,
+        });
+    }
+    (!holds.spots.is_empty()).then_some(holds)
+}
+
+/// The extent of the smallest body `[m]`.
+fn smallest_body(view: &View) -> f64 {
+    let bodies = view.model.bodies.iter().map(|b| {
+        let points = &view.model.mesh.points[b.points.clone()];
+        let first = points.first().copied().unwrap_or_default();
+        points
+            .iter()
+            .map(|&x| distance(x, first))
+            .fold(0.0, f64::max)
+    });
+    bodies.fold(f64::INFINITY, f64::min)
+}
+
+/// Adds the places of an interface where contact may push free motions; the smallest gap. `None` where that cannot be told.
+fn spots(view: &View, interface: &InterfaceDefinition, t: f64, holds: &mut Holds) -> Option<f64> {
+    let facing = match &interface.primary {
+        Primary::Facets(facets) => Some(interface.nodes[facets.first()?.nodes[0]]),
+        Primary::Rigid(..) => None,
+    };
+    let mu = largest_friction(interface)?;
+    if interface.points.len() + holds.spots.len() > MOST_POINTS {
+        return None;
+    }
+    let mut opposite = Opposite::new(interface, t);
+    let mut gap = f64::INFINITY;
+    for point in &interface.points {
+        let Some(nearest) = opposite.nearest(point.position(&interface.reference)) else {
+            continue;
         };
-        let interfaces = self.contact.interfaces.iter();
-        for interface in interfaces.filter(|i| i.schedule.active(t) && !i.laws.tied) {
-            let gap = self.spots(interface, t, &mut holds)?;
-            if gap > SMALL * size {
-                return None;
-            }
-            holds.close |= gap <= 1e-9 * size;
+        if dot(nearest.normal, point.normal) >= FACING {
+            continue;
         }
-        for row in self.couplings().stops(t) {
+        gap = gap.min(nearest.gap.abs());
+        // Beside the primary nothing pushes; the farthest that contact may is its edge.
+        let x = match opposite.edge(&nearest, point.position(&interface.reference)) {
+            Some(edge) => add(edge, interface.origin),
+            None => interface.place(point),
+        };
+        let own = interface.nodes[point.nodes[0]];
+        let along = |d: Vec3| -> Vec<f64> {
             let speed = |motion: &Unheld| -> f64 {
                 let parts = holds.all.iter().zip(motion);
-                parts.map(|(m, c)| c * m.along(self.model, row)).sum()
+                let parts = parts
+                    .filter(|(_, c)| **c != 0.0)
+                    .map(|(m, c)| m.relative(view.model, own, facing) * c * dot(d, m.velocity(x)));
+                parts.sum()
             };
-            let normal = holds.motions.iter().map(speed).collect();
-            holds.spots.push(Spot {
-                normal,
-                across: Vec::new(),
-                mu: 0.0,
-            });
-        }
-        (!holds.spots.is_empty()).then_some(holds)
-    }
-
-    /// The extent of the smallest body `[m]`.
-    fn smallest_body(&self) -> f64 {
-        let bodies = self.model.bodies.iter().map(|b| {
-            let points = &self.model.mesh.points[b.points.clone()];
-            let first = points.first().copied().unwrap_or_default();
-            points
-                .iter()
-                .map(|&x| distance(x, first))
-                .fold(0.0, f64::max)
-        });
-        bodies.fold(f64::INFINITY, f64::min)
-    }
-
-    /// Adds the places of an interface where contact may push free motions; the smallest gap. `None` where that cannot be told.
-    fn spots(&self, interface: &InterfaceDefinition, t: f64, holds: &mut Holds) -> Option<f64> {
-        let facing = match &interface.primary {
-            Primary::Facets(facets) => Some(interface.nodes[facets.first()?.nodes[0]]),
-            Primary::Rigid(..) => None,
+            holds.motions.iter().map(speed).collect()
         };
-        let mu = largest_friction(interface)?;
-        if interface.points.len() + holds.spots.len() > MOST_POINTS {
-            return None;
-        }
-        let mut opposite = Opposite::new(interface, t);
-        let mut gap = f64::INFINITY;
-        for point in &interface.points {
-            let Some(nearest) = opposite.nearest(point.position(&interface.reference)) else {
-                continue;
-            };
-            if dot(nearest.normal, point.normal) >= FACING {
-                continue;
-            }
-            gap = gap.min(nearest.gap.abs());
-            // Beside the primary nothing pushes; the farthest that contact may is its edge.
-            let x = match opposite.edge(&nearest, point.position(&interface.reference)) {
-                Some(edge) => add(edge, interface.origin),
-                None => interface.place(point),
-            };
-            let own = interface.nodes[point.nodes[0]];
-            let along = |d: Vec3| -> Vec<f64> {
-                let speed = |motion: &Unheld| -> f64 {
-                    let parts = holds.all.iter().zip(motion);
-                    let parts = parts.filter(|(_, c)| **c != 0.0).map(|(m, c)| {
-                        m.relative(self.model, own, facing) * c * dot(d, m.velocity(x))
-                    });
-                    parts.sum()
-                };
-                holds.motions.iter().map(speed).collect()
-            };
-            let normal = along(nearest.normal);
-            let across: Vec<Vec<f64>> = tangents(nearest.normal, interface.dofs.dim)
-                .into_iter()
-                .map(along)
-                .collect();
-            holds.mu = holds.mu.max(mu);
-            holds.spots.push(Spot { normal, across, mu });
-        }
-        // Surfaces that do not face each other hold nothing yet.
-        gap.is_finite().then_some(gap)
+        let normal = along(nearest.normal);
+        let across: Vec<Vec<f64>> = tangents(nearest.normal, interface.dofs.dim)
+            .into_iter()
+            .map(along)
+            .collect();
+        holds.mu = holds.mu.max(mu);
+        holds.spots.push(Spot { normal, across, mu });
     }
+    // Surfaces that do not face each other hold nothing yet.
+    gap.is_finite().then_some(gap)
 }
 
 /// The coefficient of friction that would balance loads along the motions, if there is one.

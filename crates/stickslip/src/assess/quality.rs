@@ -1,6 +1,5 @@
 //! The quality gate: figures by which accepted increments are judged, and their limits.
 
-use crate::contact::look;
 use serde::Serialize;
 
 use super::doctor::{Finding, Peak, Watch, longest_way};
@@ -11,7 +10,10 @@ use super::figures::{
     Track, UNSEEN_TO_APPROACH, UNSEEN_TO_SIZE,
 };
 use super::view::View;
+use crate::assess::{equilibrium, travel};
+use crate::body::couplings::explicit;
 use crate::contact::interface::ContactView;
+use crate::contact::look;
 use crate::contact::look::{Between, Quality};
 use crate::math::{Vec3, norm};
 use crate::model::definition::Model;
@@ -219,184 +221,182 @@ fn ratio(value: f64, scale: f64) -> f64 {
     }
 }
 
-impl View<'_> {
-    /// The energy that may be nothing but rounding of the strains `[J]`.
-    fn rounded_energy(&self) -> f64 {
-        let moved = self.farthest();
-        ROUNDED * self.stiffness() * moved * moved
-    }
+/// The energy that may be nothing but rounding of the strains `[J]`.
+fn rounded_energy(view: &View) -> f64 {
+    let moved = farthest(view);
+    ROUNDED * stiffness(view) * moved * moved
+}
 
-    /// The largest displacement or rotation of a dof.
-    fn farthest(&self) -> f64 {
-        (self.frame.state.u.iter()).fold(0.0, |m, u| f64::max(m, u.abs()))
-    }
+/// The largest displacement or rotation of a dof.
+fn farthest(view: &View) -> f64 {
+    (view.frame.state.u.iter()).fold(0.0, |m, u| f64::max(m, u.abs()))
+}
 
-    /// Force `[N]` in the stiffest body if the largest displacement were its strain, beside which forces may be nothing but rounding.
-    pub(crate) fn strain_force(&self) -> f64 {
-        self.stiffness() * self.farthest()
-    }
+/// Force `[N]` in the stiffest body if the largest displacement were its strain, beside which forces may be nothing but rounding.
+pub(crate) fn strain_force(view: &View) -> f64 {
+    stiffness(view) * farthest(view)
+}
 
-    /// Stiffness `[N/m]` of a body of the stiffest material and the size of the model.
-    fn stiffness(&self) -> f64 {
-        let blocks = 0..self.model.mesh.blocks.len();
-        let moduli = self.model.elastic().flat_map(|b| {
-            let of = |k: usize| b.elastic.constrained_modulus(k);
-            blocks.clone().filter_map(of)
-        });
-        let stiffest = moduli.fold(0.0_f64, f64::max);
-        stiffest * self.model.size.powi(self.model.mesh.dim as i32 - 2)
-    }
+/// Stiffness `[N/m]` of a body of the stiffest material and the size of the model.
+fn stiffness(view: &View) -> f64 {
+    let blocks = 0..view.model.mesh.blocks.len();
+    let moduli = view.model.elastic().flat_map(|b| {
+        let of = |k: usize| b.elastic.constrained_modulus(k);
+        blocks.clone().filter_map(of)
+    });
+    let stiffest = moduli.fold(0.0_f64, f64::max);
+    stiffest * view.model.size.powi(view.model.mesh.dim as i32 - 2)
+}
 
-    /// Judges the last accepted state.
-    pub(crate) fn judge_quality(&self, limits: &Limits, gate: &mut Gate) {
-        gate.gate = limits.gate;
-        if limits.gate != GateMode::Off {
-            self.judge_interfaces(limits, gate);
-            if self.explicit.is_none() {
-                self.judge_bodies(limits, gate);
-            }
+/// Judges the last accepted state.
+pub(crate) fn judge_quality(view: &View, limits: &Limits, gate: &mut Gate) {
+    gate.gate = limits.gate;
+    if limits.gate != GateMode::Off {
+        judge_interfaces(view, limits, gate);
+        if view.explicit.is_none() {
+            equilibrium::judge_bodies(view, limits, gate);
         }
     }
+}
 
-    /// Takes note of what interfaces do.
-    pub(crate) fn watch(&self, watches: &mut [Watch]) {
-        let (u, t) = (&self.frame.state.u, self.frame.state.t);
-        for (watch, interface) in watches.iter_mut().zip(self.contacts()) {
-            watch.note(interface, &look::resultant(interface, u), u, t);
-        }
+/// Takes note of what interfaces do.
+pub(crate) fn watch(view: &View, watches: &mut [Watch]) {
+    let (u, t) = (&view.frame.state.u, view.frame.state.t);
+    for (watch, interface) in watches.iter_mut().zip(view.contacts()) {
+        watch.note(interface, &look::resultant(interface, u), u, t);
     }
+}
 
-    fn judge_interfaces(&self, limits: &Limits, gate: &mut Gate) {
-        let t = self.frame.state.t;
-        // What rounding stores where a body is carried along is no elastic approach, least of all beside a contact that carries next to nothing.
-        let energy = match self.elastic_energy() {
-            energy if energy > self.rounded_energy() => energy,
-            _ => 0.0,
-        };
-        let tied = self.contacts();
-        let tied = tied
-            .filter_map(|i| Some((format!("interface {}", i.name), look::tie_spring_energy(i)?)));
-        let coupled = (self.contact.couplings)
-            .spring_energies(&self.frame.contacts.couplings)
+fn judge_interfaces(view: &View, limits: &Limits, gate: &mut Gate) {
+    let t = view.frame.state.t;
+    // What rounding stores where a body is carried along is no elastic approach, least of all beside a contact that carries next to nothing.
+    let energy = match view.elastic_energy() {
+        energy if energy > rounded_energy(view) => energy,
+        _ => 0.0,
+    };
+    let tied = view.contacts();
+    let tied =
+        tied.filter_map(|i| Some((format!("interface {}", i.name), look::tie_spring_energy(i)?)));
+    let coupled =
+        explicit::spring_energies(&view.contact.couplings, &view.frame.contacts.couplings)
             .into_iter();
-        let coupled = coupled.map(|(name, stored)| (format!("coupling {name}"), stored));
-        for (place, stored) in tied.chain(coupled) {
-            let limit = limits.explicit_opening;
-            gate.note_in_motion(&EXPLICIT_OPENING, &place, [stored, energy], limit, t);
+    let coupled = coupled.map(|(name, stored)| (format!("coupling {name}"), stored));
+    for (place, stored) in tied.chain(coupled) {
+        let limit = limits.explicit_opening;
+        gate.note_in_motion(&EXPLICIT_OPENING, &place, [stored, energy], limit, t);
+    }
+    let ways = view.model.bodies.iter().map(|body| travel::way(view, body));
+    let way = ways.fold(0.0, f64::max);
+    let all = view.contact.interfaces.iter().zip(&view.solver.conditions);
+    for ((acting, conditions), interface) in all.zip(view.contacts()) {
+        let q = look::quality(interface);
+        let r = look::resultant(interface, &view.frame.state.u);
+        let place = format!("interface {}", interface.name);
+        let whole = 2.0 * energy / r.carried.max(f64::MIN_POSITIVE);
+        let approach = match r.carried > 0.0 {
+            true => whole.max(q.layer),
+            false => 0.0,
+        };
+        if interface.laws.tied && approach > 0.0 {
+            let pair = [
+                look::opening(interface, &view.frame.state.u),
+                approach.min(way),
+            ];
+            gate.note_in_motion(&TIE_OPENING, &place, pair, limits.tie_opening, t);
         }
-        let ways = self.model.bodies.iter().map(|body| self.way(body));
-        let way = ways.fold(0.0, f64::max);
-        let all = self.contact.interfaces.iter().zip(&self.solver.conditions);
-        for ((acting, conditions), interface) in all.zip(self.contacts()) {
-            let q = look::quality(interface);
-            let r = look::resultant(interface, &self.frame.state.u);
-            let place = format!("interface {}", interface.name);
-            let whole = 2.0 * energy / r.carried.max(f64::MIN_POSITIVE);
-            let approach = match r.carried > 0.0 {
-                true => whole.max(q.layer),
-                false => 0.0,
-            };
-            if interface.laws.tied && approach > 0.0 {
-                let pair = [
-                    look::opening(interface, &self.frame.state.u),
-                    approach.min(way),
-                ];
-                gate.note_in_motion(&TIE_OPENING, &place, pair, limits.tie_opening, t);
+        let between = look::between(interface, &view.frame.state.u, t);
+        judge_between(interface, between, approach, limits, gate, &place, t);
+        if r.carried <= 0.0 {
+            continue;
+        }
+        if look::on_springs(interface) && !interface.laws.tied {
+            let pair = [0.5 * q.violation_work, energy];
+            let limit = limits.explicit_penetration;
+            gate.note_in_motion(&EXPLICIT_PENETRATION, &place, pair, limit, t);
+        }
+        let mut note = |kind, pair, limit| gate.note(kind, &place, pair, limit, t);
+        if !look::on_springs(interface) {
+            let size = [q.relative_to_size, 1.0];
+            let bridged = [q.complementarity * q.pressed, q.pressed];
+            note(&PENETRATION_TO_SIZE, size, limits.penetration_to_size);
+            note(&COMPLEMENTARITY, bridged, limits.complementarity);
+            // Of the elastic approach, 2 U / F or the compression of one layer of cells: both sides times the force.
+            let elastic = (2.0 * energy).max(r.carried * q.layer);
+            let pair = [q.penetration * r.carried, elastic];
+            let limit = limits.penetration_to_approach;
+            if view.inertia().is_some() {
+                gate.note_in_motion(&PENETRATION_TO_APPROACH, &place, pair, limit, t);
+            } else {
+                note(&PENETRATION_TO_APPROACH, pair, limit);
+                let false_slip = [q.false_slip * r.carried, elastic];
+                note(&FALSE_SLIP, false_slip, limits.false_slip);
             }
-            let between = look::between(interface, &self.frame.state.u, t);
-            judge_between(interface, between, approach, limits, gate, &place, t);
-            if r.carried <= 0.0 {
-                continue;
-            }
-            if look::on_springs(interface) && !interface.laws.tied {
-                let pair = [0.5 * q.violation_work, energy];
-                let limit = limits.explicit_penetration;
-                gate.note_in_motion(&EXPLICIT_PENETRATION, &place, pair, limit, t);
-            }
-            let mut note = |kind, pair, limit| gate.note(kind, &place, pair, limit, t);
-            if !look::on_springs(interface) {
-                let size = [q.relative_to_size, 1.0];
-                let bridged = [q.complementarity * q.pressed, q.pressed];
-                note(&PENETRATION_TO_SIZE, size, limits.penetration_to_size);
-                note(&COMPLEMENTARITY, bridged, limits.complementarity);
-                // Of the elastic approach, 2 U / F or the compression of one layer of cells: both sides times the force.
-                let elastic = (2.0 * energy).max(r.carried * q.layer);
-                let pair = [q.penetration * r.carried, elastic];
-                let limit = limits.penetration_to_approach;
-                if self.inertia().is_some() {
-                    gate.note_in_motion(&PENETRATION_TO_APPROACH, &place, pair, limit, t);
-                } else {
-                    note(&PENETRATION_TO_APPROACH, pair, limit);
-                    let false_slip = [q.false_slip * r.carried, elastic];
-                    note(&FALSE_SLIP, false_slip, limits.false_slip);
-                }
-            }
-            let mut note = |kind, pair, limit| gate.note(kind, &place, pair, limit, t);
-            let uneven = [q.oscillation * r.total, r.total];
-            note(&OSCILLATION, uneven, limits.oscillation);
-            if let Some(limit) = longest_way(self.model, &interface) {
-                let way = [look::slid(acting, conditions), limit];
-                note(&EXPLICIT_WEAR, way, limits.explicit_wear);
-            }
-            if let Some(pair) = look::false_shear(interface, &self.frame.state.u) {
-                note(&FALSE_SHEAR, pair, limits.false_shear);
-            }
-            let excess = [q.excess_shear * q.limit, q.limit];
-            note(&EXCESS_SHEAR, excess, limits.excess_shear);
-            let wrong = [q.friction_law * q.limit, q.limit];
-            note(&FRICTION_LAW, wrong, limits.friction_law);
-            let b = look::balance(interface, &self.frame.state.u);
-            if b.scale > 0.0 {
-                let force = [norm(b.force), b.scale];
-                let moment = [norm(b.moment), b.scale * b.size];
-                note(&ACTION_REACTION, force, limits.action_reaction);
-                note(&MOMENT, moment, limits.moment);
-            }
+        }
+        let mut note = |kind, pair, limit| gate.note(kind, &place, pair, limit, t);
+        let uneven = [q.oscillation * r.total, r.total];
+        note(&OSCILLATION, uneven, limits.oscillation);
+        if let Some(limit) = longest_way(view.model, &interface) {
+            let way = [look::slid(acting, conditions), limit];
+            note(&EXPLICIT_WEAR, way, limits.explicit_wear);
+        }
+        if let Some(pair) = look::false_shear(interface, &view.frame.state.u) {
+            note(&FALSE_SHEAR, pair, limits.false_shear);
+        }
+        let excess = [q.excess_shear * q.limit, q.limit];
+        note(&EXCESS_SHEAR, excess, limits.excess_shear);
+        let wrong = [q.friction_law * q.limit, q.limit];
+        note(&FRICTION_LAW, wrong, limits.friction_law);
+        let b = look::balance(interface, &view.frame.state.u);
+        if b.scale > 0.0 {
+            let force = [norm(b.force), b.scale];
+            let moment = [norm(b.moment), b.scale * b.size];
+            note(&ACTION_REACTION, force, limits.action_reaction);
+            note(&MOMENT, moment, limits.moment);
         }
     }
+}
 
-    /// Judges the energy balance, once all is done; what a user should know of it goes to `notes`.
-    pub(crate) fn judge_energy(
-        &self,
-        limits: &Limits,
-        quality: &EnergyQuality,
-        gate: &mut Gate,
-        notes: &mut Vec<String>,
-    ) {
-        if limits.gate == GateMode::Off {
-            return;
-        }
-        let ledger = &self.frame.ledger;
-        let moves = self.model.moves();
-        let limit = limits.energy.unwrap_or(self.model.solution.energy_limit);
-        // Where nothing happens there are no energies to compare with, but forces that have moved by their rounding.
-        let forces = gate.largest(&EQUILIBRIUM, None);
-        let least = still_energy(self.model, forces);
-        let least = least.max(self.rounded_energy());
-        let pair = [quality.largest, quality.scale.max(least)];
-        let t = self.frame.state.t;
-        let (open, scale) = (pair[0], pair[1].max(f64::MIN_POSITIVE));
-        let unknown = ledger.uncertain;
-        if !moves && open > OPEN * scale {
-            notes.push(format!(
-                "the ledger of energies is open by {:.1} % of the energy in play: works and losses are known to no more than that. Smaller increments make what comes of the course within them less; what they leave says that forces act along other directions than gaps have, as at edges that press or with small rotations",
-                100.0 * open / scale
-            ));
-        }
-        if !moves && unknown > UNKNOWN * scale {
-            notes.push(format!(
-                "friction took {:.3e}, ± {unknown:.1e}: points began to slide within increments, at times that are not known. Smaller increments make it less",
-                ledger.friction
-            ));
-        }
-        if moves {
-            let lost = [ledger.numerical.max(0.0), pair[1]];
-            let limit = limits.scheme_dissipation;
-            gate.note(&SCHEME_DISSIPATION, "model", lost, limit, t);
-        }
-        gate.note(&ENERGY, "model", pair, limit, t);
-        gate.settle();
+/// Judges the energy balance, once all is done; what a user should know of it goes to `notes`.
+pub(crate) fn judge_energy(
+    view: &View,
+    limits: &Limits,
+    quality: &EnergyQuality,
+    gate: &mut Gate,
+    notes: &mut Vec<String>,
+) {
+    if limits.gate == GateMode::Off {
+        return;
     }
+    let ledger = &view.frame.ledger;
+    let moves = view.model.moves();
+    let limit = limits.energy.unwrap_or(view.model.solution.energy_limit);
+    // Where nothing happens there are no energies to compare with, but forces that have moved by their rounding.
+    let forces = gate.largest(&EQUILIBRIUM, None);
+    let least = still_energy(view.model, forces);
+    let least = least.max(rounded_energy(view));
+    let pair = [quality.largest, quality.scale.max(least)];
+    let t = view.frame.state.t;
+    let (open, scale) = (pair[0], pair[1].max(f64::MIN_POSITIVE));
+    let unknown = ledger.uncertain;
+    if !moves && open > OPEN * scale {
+        notes.push(format!(
+            "the ledger of energies is open by {:.1} % of the energy in play: works and losses are known to no more than that. Smaller increments make what comes of the course within them less; what they leave says that forces act along other directions than gaps have, as at edges that press or with small rotations",
+            100.0 * open / scale
+        ));
+    }
+    if !moves && unknown > UNKNOWN * scale {
+        notes.push(format!(
+            "friction took {:.3e}, ± {unknown:.1e}: points began to slide within increments, at times that are not known. Smaller increments make it less",
+            ledger.friction
+        ));
+    }
+    if moves {
+        let lost = [ledger.numerical.max(0.0), pair[1]];
+        let limit = limits.scheme_dissipation;
+        gate.note(&SCHEME_DISSIPATION, "model", lost, limit, t);
+    }
+    gate.note(&ENERGY, "model", pair, limit, t);
+    gate.settle();
 }
 
 /// Judges what lies between the points of an interface whose bodies have come nearer elastically by `approach`.

@@ -44,7 +44,7 @@ impl Integrator for Explicit {
         solver: &mut Solver,
         trial: Trial,
     ) -> Result<Accepted, StepFailure> {
-        self.check_length(model, frame, contact, trial)?;
+        check_length(self, model, frame, contact, trial)?;
         let dt = trial.to - trial.from;
         let constraints = match &self.still {
             Some(still) => Arc::clone(still),
@@ -53,10 +53,18 @@ impl Integrator for Explicit {
         let mut at = predict(model, frame, &constraints, trial);
         let mut drift = Drift::new(model, frame, &constraints);
         drift.predict(self, &constraints.fixed, dt, &mut at);
-        let more = self.correct(model, &*contact, &constraints, &mut drift, &mut at, dt)?;
+        let more = correct(
+            self,
+            model,
+            &*contact,
+            &constraints,
+            &mut drift,
+            &mut at,
+            dt,
+        )?;
         let u = drift.place(&at.u);
         let forces = contact.forces(&frame.contacts, &solver.conditions);
-        self.evaluate(model, frame, forces, &at, dt, &u)?;
+        evaluate(self, model, frame, forces, &at, dt, &u)?;
         let external = if !self.loaded {
             frame.load.clone()
         } else if model.frames.any_rigid() {
@@ -75,10 +83,10 @@ impl Integrator for Explicit {
             external: &acting,
             dt,
         };
-        self.hold(model, contact, &end, &drift, &more, &at)?;
+        hold(self, model, contact, &end, &drift, &more, &at)?;
         let mut forces = vec![0.0; external.len()];
-        let mut total = self.accelerate(&end, &mut at, &mut forces);
-        self.turn(&end, &mut at, &mut forces, &drift, &mut total);
+        let mut total = accelerate(self, &end, &mut at, &mut forces);
+        turn(self, &end, &mut at, &mut forces, &drift, &mut total);
         (self.exact_after).show(&more, &constraints.fixed, contact, &mut forces);
         let none = vec![0.0; u.len()];
         there.outward(&none, &mut forces);
@@ -179,240 +187,251 @@ fn predict(model: &Model, frame: &Frame, constraints: &Constraints, trial: Trial
     at
 }
 
-impl Explicit {
-    /// Refuses an increment of given length that is not stable.
-    fn check_length(
-        &self,
-        model: &Model,
-        frame: &Frame,
-        contact: &Contact,
-        trial: Trial,
-    ) -> Result<(), StepFailure> {
-        let step = &model.steps[frame.step];
-        if !step.fixed {
-            return Ok(());
-        }
-        let dt = trial.to - trial.from;
-        let stable = self.stable(self.contact_frequency(model, frame, contact));
-        if dt > stable * (1.0 + 1e-9) {
-            let e = unstable(&step.name, trial.from, dt, stable, step.end - step.start);
-            return Err(StepFailure {
-                help: e.help,
-                ..StepFailure::new(Cause::NotConverged, e.message)
-            });
-        }
-        Ok(())
+/// Refuses an increment of given length that is not stable.
+fn check_length(
+    explicit: &Explicit,
+    model: &Model,
+    frame: &Frame,
+    contact: &Contact,
+    trial: Trial,
+) -> Result<(), StepFailure> {
+    let step = &model.steps[frame.step];
+    if !step.fixed {
+        return Ok(());
     }
-
-    /// Forces of bodies, damping and interfaces at the end.
-    fn evaluate(
-        &mut self,
-        model: &Model,
-        frame: &Frame,
-        mut forces: ContactForces,
-        at: &State,
-        dt: f64,
-        u: &[f64],
-    ) -> Result<(), StepFailure> {
-        self.resist(model, u);
-        model.links.transfer(&mut self.force);
-        self.damp(model, u, &at.v);
-        self.out.reset(false);
-        let frames = frames_here(model, u);
-        let there = IncrementalRotation::new(&model.frames, u);
-        let (mut from, mut seen) = (Cow::Borrowed(&frame.state), Cow::Borrowed(at));
-        if !there.is_empty() {
-            there.enter(&mut from.to_mut().u);
-            seen.to_mut().u = u.to_vec();
-            there.enter(&mut seen.to_mut().u);
-        }
-        let stage = Stage {
-            from: &from,
-            at: &seen,
-            dt,
-            rate: None,
-            frames: frames.as_ref(),
-        };
-        for interface in &mut forces.interfaces {
-            interface.begin();
-            interface.prepare(&stage);
-            interface.assemble(&stage, &mut self.out)?;
-        }
-        forces.couplings.assemble(&stage, &mut self.out)?;
-        model.links.transfer(&mut self.out.residual);
-        Ok(())
+    let dt = trial.to - trial.from;
+    let stable = explicit.stable(explicit.contact_frequency(model, frame, contact));
+    if dt > stable * (1.0 + 1e-9) {
+        let e = unstable(&step.name, trial.from, dt, stable, step.end - step.start);
+        return Err(StepFailure {
+            help: e.help,
+            ..StepFailure::new(Cause::NotConverged, e.message)
+        });
     }
+    Ok(())
+}
 
-    /// Leads what is held exactly to where it holds at the end of the increment; the forces that rows had more for that, from the start on.
-    fn correct(
-        &mut self,
-        model: &Model,
-        contact: &Contact,
-        constraints: &Constraints,
-        drift: &mut Drift,
-        at: &mut State,
-        dt: f64,
-    ) -> Result<Vec<f64>, StepFailure> {
-        (self.exact).lead(&model.links, contact, drift.from(), at.t);
-        if self.exact.is_empty() {
-            return Ok(Vec::new());
-        }
-        let mobility = self.mobility(constraints);
-        let placed = drift.place(&at.u);
-        let from = &drift.from().state.u;
-        let more = (self.exact).correct(&mobility, &model.links, dt, from, &placed, at)?;
-        self.exact.restart(&mobility, &more, drift.start());
-        Ok(more)
+/// Forces of bodies, damping and interfaces at the end.
+fn evaluate(
+    explicit: &mut Explicit,
+    model: &Model,
+    frame: &Frame,
+    mut forces: ContactForces,
+    at: &State,
+    dt: f64,
+    u: &[f64],
+) -> Result<(), StepFailure> {
+    explicit.resist(model, u);
+    model.links.transfer(&mut explicit.force);
+    explicit.damp(model, u, &at.v);
+    explicit.out.reset(false);
+    let frames = frames_here(model, u);
+    let there = IncrementalRotation::new(&model.frames, u);
+    let (mut from, mut seen) = (Cow::Borrowed(&frame.state), Cow::Borrowed(at));
+    if !there.is_empty() {
+        there.enter(&mut from.to_mut().u);
+        seen.to_mut().u = u.to_vec();
+        there.enter(&mut seen.to_mut().u);
     }
-
-    /// Lets what is held exactly go on holding: finds its forces, which balance those of all else at the end of the increment.
-    fn hold(
-        &mut self,
-        model: &Model,
-        contact: &mut Contact,
-        end: &End,
-        drift: &Drift,
-        more: &[f64],
-        at: &State,
-    ) -> Result<(), StepFailure> {
-        let End {
-            from,
-            constraints,
-            external,
-            ..
-        } = *end;
-        let mut exact = Exact::gather(model, from, contact, at.t, &self.exact);
-        if !exact.is_empty() {
-            let mobility = self.mobility(constraints);
-            let balance = |i: usize| external[i] - self.force[i] - self.out.residual[i];
-            let mut forces: Vec<f64> = (0..external.len()).map(balance).collect();
-            forces
-                .iter_mut()
-                .zip(&self.damping.forces)
-                .for_each(|(f, d)| *f -= d);
-            for spin in &self.spins {
-                let turning = drift.turning(spin, &at.v);
-                spin.range().zip(turning).for_each(|(i, m)| forces[i] -= m);
-            }
-            let a = exact.accelerations(&mobility, &forces);
-            exact.balance(&mobility, &a)?;
-            exact.act(&self.exact, more, contact, &model.links, &mut self.out);
-        }
-        self.exact_after = exact;
-        Ok(())
+    let stage = Stage {
+        from: &from,
+        at: &seen,
+        dt,
+        rate: None,
+        frames: frames.as_ref(),
+    };
+    for interface in &mut forces.interfaces {
+        interface.begin();
+        interface.prepare(&stage);
+        interface.assemble(&stage, &mut explicit.out)?;
     }
+    forces.couplings.assemble(&stage, &mut explicit.out)?;
+    model.links.transfer(&mut explicit.out.residual);
+    Ok(())
+}
 
-    /// Accelerations, velocities and reactions at the end, and sums over all dofs in a fixed order.
-    fn accelerate(&self, end: &End, at: &mut State, forces: &mut [f64]) -> Sums {
-        let End {
-            from: frame,
-            constraints,
-            external,
-            dt,
-        } = *end;
-        let (from, load_before) = (&frame.state, &frame.load);
-        let State { u, v, a, .. } = at;
-        let u: &[f64] = u;
-        let Explicit {
-            mass,
-            inverse,
-            force,
-            damping:
-                RayleighDamping {
-                    forces: damped,
-                    before: damped_before,
-                    ..
-                },
-            out,
-            ..
-        } = self;
-        let sums: Vec<Sums> = v
-            .par_chunks_mut(CHUNK)
-            .zip(a.par_chunks_mut(CHUNK))
-            .zip(forces.par_chunks_mut(CHUNK))
-            .enumerate()
-            .map(|(c, ((v, a), r))| {
-                let first = c * CHUNK;
-                let mut sums = Sums {
-                    finite: true,
-                    ..Sums::default()
-                };
-                for (k, ((v, a), r)) in v.iter_mut().zip(a).zip(r).enumerate() {
-                    let i = first + k;
-                    let moved = u[i] - from.u[i];
-                    let balance = external[i] - force[i] - damped[i] - out.residual[i];
-                    if constraints.fixed[i] {
-                        *a = (*v - from.v[i]) / dt;
-                        *r = mass[i] * *a - balance;
-                        // What is not inertia acts as everywhere, by its mean; inertia takes what the mass has more of, however sudden.
-                        let held = end.held(i, mass[i] * from.a[i]);
-                        sums.work += 0.5 * (held - balance) * moved
-                            + 0.5 * mass[i] * (*v * *v - from.v[i] * from.v[i]);
-                    } else {
-                        *a = inverse[i] * balance;
-                        *v += 0.5 * dt * *a;
-                        sums.turned[0] += mass[i] * from.a[i] * from.a[i];
-                        sums.turned[1] += mass[i] * *a * *a;
-                    }
-                    sums.work += 0.5 * (load_before[i] + external[i]) * moved;
-                    sums.damped += 0.5 * (damped_before[i] + damped[i]) * moved;
-                    sums.kinetic += mass[i] * *v * *v;
-                    sums.strain += force[i] * u[i];
-                }
-                sums.finite = sums.kinetic.is_finite();
-                sums
-            })
-            .collect();
-        let mut total = Sums {
-            finite: true,
-            ..Sums::default()
-        };
-        for s in sums {
-            total.kinetic += s.kinetic;
-            total.strain += s.strain;
-            total.work += s.work;
-            total.damped += s.damped;
-            total.turned[0] += s.turned[0];
-            total.turned[1] += s.turned[1];
-            total.finite &= s.finite;
-        }
-        total
+/// Leads what is held exactly to where it holds at the end of the increment; the forces that rows had more for that, from the start on.
+fn correct(
+    explicit: &mut Explicit,
+    model: &Model,
+    contact: &Contact,
+    constraints: &Constraints,
+    drift: &mut Drift,
+    at: &mut State,
+    dt: f64,
+) -> Result<Vec<f64>, StepFailure> {
+    (explicit.exact).lead(&model.links, contact, drift.from(), at.t);
+    if explicit.exact.is_empty() {
+        return Ok(Vec::new());
     }
+    let mobility = explicit.mobility(constraints);
+    let placed = drift.place(&at.u);
+    let from = &drift.from().state.u;
+    let more = (explicit.exact).correct(&mobility, &model.links, dt, from, &placed, at)?;
+    explicit.exact.restart(&mobility, &more, drift.start());
+    Ok(more)
+}
 
-    /// The same for rotations of rigid bodies, whose inertia is no diagonal.
-    fn turn(&self, end: &End, at: &mut State, forces: &mut [f64], drift: &Drift, total: &mut Sums) {
-        let (constraints, dt) = (end.constraints, end.dt);
-        let from = &end.from.state;
-        for spin in &self.spins {
-            let range = spin.range();
-            let mut moment = [0.0; 3];
-            for (m, i) in moment.iter_mut().zip(range.clone()) {
-                *m = end.external[i] - self.force[i] - self.out.residual[i];
-            }
-            if drift.has(spin) {
-                let gained = drift.kick(spin, end.from, dt, moment, at);
-                total.turned[1] += 8.0 / (dt * dt) * gained;
-                total.kinetic += spin.square(spin.of(&at.v));
-                continue;
-            }
-            let State { v, a, .. } = at;
-            let turn = spin.acceleration(moment, &constraints.fixed, spin.of(a));
-            let inertial = spin.force(turn);
-            let mut free = [spin.of(&from.a), turn];
-            for (k, i) in range.enumerate() {
+/// Lets what is held exactly go on holding: finds its forces, which balance those of all else at the end of the increment.
+fn hold(
+    explicit: &mut Explicit,
+    model: &Model,
+    contact: &mut Contact,
+    end: &End,
+    drift: &Drift,
+    more: &[f64],
+    at: &State,
+) -> Result<(), StepFailure> {
+    let End {
+        from,
+        constraints,
+        external,
+        ..
+    } = *end;
+    let mut exact = Exact::gather(model, from, contact, at.t, &explicit.exact);
+    if !exact.is_empty() {
+        let mobility = explicit.mobility(constraints);
+        let balance = |i: usize| external[i] - explicit.force[i] - explicit.out.residual[i];
+        let mut forces: Vec<f64> = (0..external.len()).map(balance).collect();
+        forces
+            .iter_mut()
+            .zip(&explicit.damping.forces)
+            .for_each(|(f, d)| *f -= d);
+        for spin in &explicit.spins {
+            let turning = drift.turning(spin, &at.v);
+            spin.range().zip(turning).for_each(|(i, m)| forces[i] -= m);
+        }
+        let a = exact.accelerations(&mobility, &forces);
+        exact.balance(&mobility, &a)?;
+        exact.act(
+            &explicit.exact,
+            more,
+            contact,
+            &model.links,
+            &mut explicit.out,
+        );
+    }
+    explicit.exact_after = exact;
+    Ok(())
+}
+
+/// Accelerations, velocities and reactions at the end, and sums over all dofs in a fixed order.
+fn accelerate(explicit: &Explicit, end: &End, at: &mut State, forces: &mut [f64]) -> Sums {
+    let End {
+        from: frame,
+        constraints,
+        external,
+        dt,
+    } = *end;
+    let (from, load_before) = (&frame.state, &frame.load);
+    let State { u, v, a, .. } = at;
+    let u: &[f64] = u;
+    let Explicit {
+        mass,
+        inverse,
+        force,
+        damping:
+            RayleighDamping {
+                forces: damped,
+                before: damped_before,
+                ..
+            },
+        out,
+        ..
+    } = explicit;
+    let sums: Vec<Sums> = v
+        .par_chunks_mut(CHUNK)
+        .zip(a.par_chunks_mut(CHUNK))
+        .zip(forces.par_chunks_mut(CHUNK))
+        .enumerate()
+        .map(|(c, ((v, a), r))| {
+            let first = c * CHUNK;
+            let mut sums = Sums {
+                finite: true,
+                ..Sums::default()
+            };
+            for (k, ((v, a), r)) in v.iter_mut().zip(a).zip(r).enumerate() {
+                let i = first + k;
+                let moved = u[i] - from.u[i];
+                let balance = external[i] - force[i] - damped[i] - out.residual[i];
                 if constraints.fixed[i] {
-                    forces[i] += inertial[k];
-                    total.work += 0.5 * dt * inertial[k] * (from.v[i] + v[i]);
-                    free.iter_mut().for_each(|a| a[k] = 0.0);
+                    *a = (*v - from.v[i]) / dt;
+                    *r = mass[i] * *a - balance;
+                    // What is not inertia acts as everywhere, by its mean; inertia takes what the mass has more of, however sudden.
+                    let held = end.held(i, mass[i] * from.a[i]);
+                    sums.work += 0.5 * (held - balance) * moved
+                        + 0.5 * mass[i] * (*v * *v - from.v[i] * from.v[i]);
                 } else {
-                    a[i] = turn[k];
-                    v[i] += 0.5 * dt * turn[k];
+                    *a = inverse[i] * balance;
+                    *v += 0.5 * dt * *a;
+                    sums.turned[0] += mass[i] * from.a[i] * from.a[i];
+                    sums.turned[1] += mass[i] * *a * *a;
                 }
+                sums.work += 0.5 * (load_before[i] + external[i]) * moved;
+                sums.damped += 0.5 * (damped_before[i] + damped[i]) * moved;
+                sums.kinetic += mass[i] * *v * *v;
+                sums.strain += force[i] * u[i];
             }
-            for (sum, a) in total.turned.iter_mut().zip(free) {
-                *sum += spin.square(a);
-            }
-            total.kinetic += spin.square(spin.of(v));
+            sums.finite = sums.kinetic.is_finite();
+            sums
+        })
+        .collect();
+    let mut total = Sums {
+        finite: true,
+        ..Sums::default()
+    };
+    for s in sums {
+        total.kinetic += s.kinetic;
+        total.strain += s.strain;
+        total.work += s.work;
+        total.damped += s.damped;
+        total.turned[0] += s.turned[0];
+        total.turned[1] += s.turned[1];
+        total.finite &= s.finite;
+    }
+    total
+}
+
+/// The same for rotations of rigid bodies, whose inertia is no diagonal.
+fn turn(
+    explicit: &Explicit,
+    end: &End,
+    at: &mut State,
+    forces: &mut [f64],
+    drift: &Drift,
+    total: &mut Sums,
+) {
+    let (constraints, dt) = (end.constraints, end.dt);
+    let from = &end.from.state;
+    for spin in &explicit.spins {
+        let range = spin.range();
+        let mut moment = [0.0; 3];
+        for (m, i) in moment.iter_mut().zip(range.clone()) {
+            *m = end.external[i] - explicit.force[i] - explicit.out.residual[i];
         }
+        if drift.has(spin) {
+            let gained = drift.kick(spin, end.from, dt, moment, at);
+            total.turned[1] += 8.0 / (dt * dt) * gained;
+            total.kinetic += spin.square(spin.of(&at.v));
+            continue;
+        }
+        let State { v, a, .. } = at;
+        let turn = spin.acceleration(moment, &constraints.fixed, spin.of(a));
+        let inertial = spin.force(turn);
+        let mut free = [spin.of(&from.a), turn];
+        for (k, i) in range.enumerate() {
+            if constraints.fixed[i] {
+                forces[i] += inertial[k];
+                total.work += 0.5 * dt * inertial[k] * (from.v[i] + v[i]);
+                free.iter_mut().for_each(|a| a[k] = 0.0);
+            } else {
+                a[i] = turn[k];
+                v[i] += 0.5 * dt * turn[k];
+            }
+        }
+        for (sum, a) in total.turned.iter_mut().zip(free) {
+            *sum += spin.square(a);
+        }
+        total.kinetic += spin.square(spin.of(v));
     }
 }

@@ -10,11 +10,11 @@
 //!
 //! Rows that say the same twice leave `λ` undetermined, but not `Aᵀ λ`: conjugate gradients find one of all.
 
-use crate::contact::interface::pull_ties;
-use crate::contact::look;
 use std::collections::BTreeMap;
 
-use crate::body::couplings::ExactForce;
+use crate::body::couplings::{ExactForce, explicit};
+use crate::contact::interface::pull_ties;
+use crate::contact::look;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
@@ -190,7 +190,7 @@ impl Exact {
     ) -> Exact {
         let contacts = &frame.contacts;
         let links = &model.links;
-        let coupled = contact.couplings.exact_rows(&contacts.couplings, t);
+        let coupled = explicit::exact_rows(&contact.couplings, &contacts.couplings, t);
         let mut out = Exact::default();
         for (i, row, target) in coupled {
             let known = before.rows.coupled.get(out.rows.coupled.len());
@@ -223,7 +223,7 @@ impl Exact {
     /// Takes what couplings hold at time `t`.
     pub fn lead(&mut self, links: &Links, contact: &Contact, frame: &Frame, t: f64) {
         let memory = &frame.contacts.couplings;
-        let rows: Vec<_> = contact.couplings.exact_rows(memory, t).collect();
+        let rows: Vec<_> = explicit::exact_rows(&contact.couplings, memory, t).collect();
         let known = |(row, (i, _)): (&(usize, _, f64), &(usize, f64))| row.0 == *i;
         let same =
             rows.len() == self.rows.coupled.len() && rows.iter().zip(&self.rows.coupled).all(known);
@@ -357,7 +357,7 @@ impl Exact {
         };
         let forces: BTreeMap<usize, ExactForce> =
             self.rows.coupled.iter().enumerate().map(of).collect();
-        (contact.couplings).hold_exactly(&forces, &mut residual.residual);
+        explicit::hold_exactly(&mut contact.couplings, &forces, &mut residual.residual);
         self.pull(contact, |_| 0.0, Some(&mut residual));
         links.transfer(&mut residual.residual);
         for (to, r) in out.residual.iter_mut().zip(&residual.residual) {

@@ -4,15 +4,16 @@
 //! v½ = v₀ + dt/2 a₀,   u₁ = u₀ + dt v½,   a₁ = (F₁ - f(u₁) - C v½ - R(u₁)) / m,   v₁ = v½ + dt/2 a₁
 //! ```
 
-use crate::contact::look;
 use std::any::Any;
 use std::sync::Arc;
 
 use super::exact::{Exact, Mobility};
 use super::integrator::Integrator;
 use super::onset::{AFTER, initial_contact, look_at_contact};
+use crate::body::couplings::explicit;
 use crate::body::internal::{InternalForce, largest_eigenvalue};
 use crate::contact::interface::{Conditions, History, Interface, use_springs};
+use crate::contact::look;
 use crate::error::{Error, RunError};
 use crate::math::vector::dot;
 use crate::model::contact::Contact;
@@ -317,9 +318,15 @@ impl Explicit {
             frame.ledger.initial += use_springs(interface, history, true);
         }
         let (couplings, memory) = (&mut contact.couplings, &mut contacts.couplings);
-        couplings.use_springs(memory, true);
-        couplings.start_explicit(memory, frame.state.t, &frame.state.u);
-        couplings.fit_springs(soon, explicit.frequency, &explicit.inverse, &model.links);
+        explicit::use_springs(couplings, memory, true);
+        explicit::start_explicit(couplings, memory, frame.state.t, &frame.state.u);
+        explicit::fit_springs(
+            couplings,
+            soon,
+            explicit.frequency,
+            &explicit.inverse,
+            &model.links,
+        );
         // What is in contact already bounds the first increment, too: the last evaluation, if there was one, was of other laws and multipliers.
         let alone = explicit.stable_alone().min(step.increments.largest);
         look_at_contact(model, frame, contact, conditions, soon, alone);
@@ -421,7 +428,7 @@ impl Explicit {
         exact.add_forces(&acting);
         exact.act(&Exact::default(), &[], contact, &model.links, &mut more);
         let memory = &mut Arc::make_mut(&mut frame.contacts).couplings;
-        contact.couplings.start_exactly(memory);
+        explicit::start_exactly(&contact.couplings, memory);
         self.start_acceleration(model, frame, constraints);
         self.exact = exact;
         Ok(())
@@ -452,8 +459,8 @@ impl Explicit {
         };
         let (squared, rate) = all.map(of).fold((0.0, 0.0), |s, i| (s.0 + i.0, s.1 + i.1));
         let t = frame.state.t + AFTER * (step.end - step.start);
-        let couplings = (contact.couplings).highest_frequency(t, &self.inverse, links);
-        let dashpots = (contact.couplings).highest_rate(t, &self.inverse, links);
+        let couplings = explicit::highest_frequency(&contact.couplings, t, &self.inverse, links);
+        let dashpots = explicit::highest_rate(&contact.couplings, t, &self.inverse, links);
         ContactFrequency {
             squared: squared + couplings,
             rate: rate + dashpots,

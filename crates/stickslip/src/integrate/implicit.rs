@@ -4,10 +4,11 @@ use super::impulse::{is_impulse, kicked, stop};
 use super::integrator::Integrator;
 use super::quasi_static::pairs;
 use super::sight::{Acting, Ended, InertialFrame, in_space};
-use crate::contact::look;
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use crate::body::couplings::fit;
+use crate::contact::look;
 use crate::math::vector::{difference, dot, weighted_mean};
 use crate::model::contact::Contact;
 use crate::model::definition::{ContactAt, Dynamic, Model};
@@ -16,8 +17,8 @@ use crate::model::ledger::Flow;
 use crate::newton::{Converged, Origin};
 use crate::solve::accepted::Accepted;
 use crate::solve::checks::{check_candidates, check_change};
-use crate::solve::inertia::Inertia;
-use crate::solve::inertia::in_motion;
+use crate::solve::condensed::in_motion;
+use crate::solve::inertia::{Inertia, in_motion};
 use crate::solve::iteration::{Load, Task};
 use crate::solve::solver::{Solver, entries};
 use crate::system::{
@@ -515,12 +516,12 @@ impl Implicit {
             frames,
         } = balance;
         let fixed = constraints.fixed.clone();
-        let condensed = solver.condense_in_motion(model, frame, contact, &fixed);
+        let condensed = in_motion::condense_in_motion(solver, model, frame, contact, &fixed);
         if let Some(broken) = solver.condenser.broken() {
             return Err(broken.clone());
         }
         let (_, diagonal, _) = in_motion(&solver.inertia).matrix();
-        (contact.couplings).fit(diagonal, &fixed, &model.links);
+        fit::fit(&mut contact.couplings, diagonal, &fixed, &model.links);
         let origin = Origin {
             at: guess.u.clone(),
             forces: guess.forces.clone(),
@@ -535,7 +536,9 @@ impl Implicit {
             contacts: &frame.contacts,
         };
         let mut converged = match condensed {
-            true => solver.solve_condensed(model, contact, task(Load::Known(origin)), at)?,
+            true => {
+                in_motion::solve_condensed(solver, model, contact, task(Load::Known(origin)), at)?
+            }
             false => solver.solve_sparse(model, contact, task(Load::Known(origin)), at)?,
         };
         let moved = difference(&at.u, &guess.u);
@@ -545,7 +548,7 @@ impl Implicit {
             converged.forces = (0..moved.len())
                 .map(|i| guess.forces[i] + stage[i] + converged.contact[i])
                 .collect();
-            solver.check_in_motion(model, &converged, guess.scale, &at.u, &fixed)?;
+            in_motion::check_in_motion(solver, model, &converged, guess.scale, &at.u, &fixed)?;
         }
         let both = guess.internal.iter().zip(&change);
         Ok((converged, both.map(|(a, b)| a + b).collect()))

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::implicit::{BACKWARD, Implicit};
 use super::integrator::Integrator;
 use super::sight::frames_here;
-use crate::body::couplings::{Couplings, MotionStart};
+use crate::body::couplings::{Couplings, MotionStart, motion};
 use crate::contact::interface::{
     Conditions, add_initial_forces, adopt_light_tractions, adopt_tractions, evaluate_laws,
     mass_per_area, presses_light_points, tried_tractions,
@@ -16,8 +16,8 @@ use crate::math::vector::{difference, dot};
 use crate::model::contact::Contact;
 use crate::model::definition::{ContactAt, Dynamic, Model};
 use crate::model::frame::{Frame, Motion};
-use crate::solve::inertia::Inertia;
-use crate::solve::inertia::in_motion;
+use crate::solve::condensed::candidates;
+use crate::solve::inertia::{Inertia, in_motion};
 use crate::solve::solver::{Solver, entries};
 use crate::system::{Deformed, IncrementalRotation, Links, Stage, State, StepFailure};
 use crate::time::Trial;
@@ -36,178 +36,174 @@ const AT_ONCE: f64 = 1e-3;
 /// time, differ by four fifths.
 const SUDDEN: f64 = 0.5;
 
-impl Implicit {
-    /// Begins an implicit step: masses, initial velocities, candidates, and the forces and accelerations at the start.
-    pub fn begin(
-        model: &Model,
-        frame: &mut Frame,
-        contact: &mut Contact,
-        solver: &mut Solver,
-        dynamic: Dynamic,
-        alphas: Alphas,
-    ) -> Result<Self, Error> {
-        let implicit = Implicit { dynamic, alphas };
-        start_motion(model, frame, contact, solver, &dynamic);
-        solver.choose_candidates(model, frame, contact);
-        implicit.start_forces(model, frame, contact, solver)?;
-        Ok(implicit)
-    }
+/// Begins an implicit step: masses, initial velocities, candidates, and the forces and accelerations at the start.
+pub fn begin(
+    model: &Model,
+    frame: &mut Frame,
+    contact: &mut Contact,
+    solver: &mut Solver,
+    dynamic: Dynamic,
+    alphas: Alphas,
+) -> Result<Implicit, Error> {
+    let implicit = Implicit { dynamic, alphas };
+    start_motion(model, frame, contact, solver, &dynamic);
+    candidates::choose_candidates(solver, model, frame, contact);
+    start_forces(&implicit, model, frame, contact, solver)?;
+    Ok(implicit)
+}
 
-    /// Finds the forces of the interfaces and the accelerations at the start of a dynamic step.
-    fn start_forces(
-        &self,
-        model: &Model,
-        frame: &mut Frame,
-        contact: &mut Contact,
-        solver: &mut Solver,
-    ) -> Result<(), Error> {
-        let step = &model.steps[frame.step];
-        let (t, dt) = (
-            step.start + AFTER * (step.end - step.start),
-            step.increments.initial,
-        );
-        frame.load = frame.external(model, t);
-        let pressed = self.equilibrate_massless(model, frame, contact, solver, t, dt);
-        let evaluated = initial_contact(model, frame, contact, &solver.conditions, t, dt)
-            .map_err(|e| e.at(t))?;
-        let before = std::mem::replace(&mut frame.contact, evaluated);
-        match self.tried_contact(model, frame, contact, solver, dt) {
-            Some(forces) => frame.contact = forces,
-            None => {
-                keep_massless_forces(model, frame, contact, solver, t, &pressed.unwrap_or(before))
-            }
-        }
-        let lag = self.alphas.lag() * dt;
-        initial_acceleration(model, frame, contact, solver, t, lag).map_err(|e| e.at(t).into())
+/// Finds the forces of the interfaces and the accelerations at the start of a dynamic step.
+fn start_forces(
+    implicit: &Implicit,
+    model: &Model,
+    frame: &mut Frame,
+    contact: &mut Contact,
+    solver: &mut Solver,
+) -> Result<(), Error> {
+    let step = &model.steps[frame.step];
+    let (t, dt) = (
+        step.start + AFTER * (step.end - step.start),
+        step.increments.initial,
+    );
+    frame.load = frame.external(model, t);
+    let pressed = equilibrate_massless(implicit, model, frame, contact, solver, t, dt);
+    let evaluated =
+        initial_contact(model, frame, contact, &solver.conditions, t, dt).map_err(|e| e.at(t))?;
+    let before = std::mem::replace(&mut frame.contact, evaluated);
+    match tried_contact(implicit, model, frame, contact, solver, dt) {
+        Some(forces) => frame.contact = forces,
+        None => keep_massless_forces(model, frame, contact, solver, t, &pressed.unwrap_or(before)),
     }
+    let lag = implicit.alphas.lag() * dt;
+    initial_acceleration(model, frame, contact, solver, t, lag).map_err(|e| e.at(t).into())
+}
 
-    /// Lets points without mass go where overlap presses them, which takes them no time, with the forces there; `None` where none overlap, and where no equilibrium
-    /// is found. What that strains bodies by is work of the overlap. Damping has no part in it: it would make any work of what takes no time.
-    fn equilibrate_massless(
-        &self,
-        model: &Model,
-        frame: &mut Frame,
-        contact: &mut Contact,
-        solver: &mut Solver,
-        t: f64,
-        dt: f64,
-    ) -> Option<Vec<f64>> {
-        let (before, at) = at_start(model, frame, t, dt);
-        let stage = Stage {
-            from: &before,
-            at: &at,
-            dt,
-            rate: None,
-            frames: None,
-        };
-        let mut forces = contact.forces(&frame.contacts, &solver.conditions);
-        let mut interfaces = forces.interfaces.iter_mut();
-        if !interfaces.any(|i| presses_light_points(i, &stage)) {
-            return None;
-        }
+/// Lets points without mass go where overlap presses them, which takes them no time, with the forces there; `None` where none overlap, and where no equilibrium
+/// is found. What that strains bodies by is work of the overlap. Damping has no part in it: it would make any work of what takes no time.
+fn equilibrate_massless(
+    implicit: &Implicit,
+    model: &Model,
+    frame: &mut Frame,
+    contact: &mut Contact,
+    solver: &mut Solver,
+    t: f64,
+    dt: f64,
+) -> Option<Vec<f64>> {
+    let (before, at) = at_start(model, frame, t, dt);
+    let stage = Stage {
+        from: &before,
+        at: &at,
+        dt,
+        rate: None,
+        frames: None,
+    };
+    let mut forces = contact.forces(&frame.contacts, &solver.conditions);
+    let mut interfaces = forces.interfaces.iter_mut();
+    if !interfaces.any(|i| presses_light_points(i, &stage)) {
+        return None;
+    }
+    let trial = Trial {
+        from: frame.state.t,
+        to: frame.state.t + AT_ONCE * dt,
+    };
+    let damping = solver.inertia.as_mut()?.damping.take();
+    let tried = euler(implicit).attempt(model, frame, contact, solver, trial);
+    solver.seen.clear();
+    let inertia = solver.inertia.as_mut()?;
+    inertia.damping = damping;
+    // It knows of no damping.
+    inertia.forget_matrices();
+    let accepted = tried.ok()?;
+    let contacts = Arc::make_mut(&mut frame.contacts);
+    let all = contact.interfaces.iter().zip(&mut contacts.interfaces);
+    for ((interface, history), conditions) in all.zip(&solver.conditions) {
+        adopt_light_tractions(history, conditions, &tried_tractions(interface));
+    }
+    let moved = frame.state.u.iter_mut().zip(&accepted.state.u);
+    for ((u, to), _) in moved.zip(&inertia.light).filter(|(_, light)| **light) {
+        *u = *to;
+    }
+    let internal = solver.bodies.forces(&frame.state.u);
+    let strain = solver.bodies.energy(Deformed {
+        u: &frame.state.u,
+        forces: &internal,
+    });
+    let energy = &mut frame.ledger;
+    let strain = strain + energy.entered.thermal;
+    energy.belt_work += strain - energy.strain;
+    energy.strain = strain;
+    frame.motion.internal = internal;
+    frame.motion.start.clone_from(&frame.state.u);
+    Some(accepted.contact)
+}
+
+/// The method of Euler with what else is chosen.
+fn euler(implicit: &Implicit) -> Implicit {
+    Implicit {
+        dynamic: Dynamic {
+            contact_at: ContactAt::End,
+            error: None,
+            events: None,
+            ..implicit.dynamic
+        },
+        alphas: BACKWARD,
+    }
+}
+
+/// The forces of the interfaces at the end of a short increment with the method of Euler: pressure holds what would go through, points stick that
+/// the limit holds and others carry it. `None` where nothing touches, where no equilibrium is found, and at an impact, whose force is not that of
+/// an instant.
+fn tried_contact(
+    implicit: &Implicit,
+    model: &Model,
+    frame: &mut Frame,
+    contact: &mut Contact,
+    solver: &mut Solver,
+    dt: f64,
+) -> Option<Vec<f64>> {
+    let t = frame.state.t;
+    let inertia = in_motion(&solver.inertia);
+    if !forces_are_sought(model, contact, inertia, t + AFTER * dt) {
+        return None;
+    }
+    let mut euler = euler(implicit);
+    let tried = TRIALS.map(|part| {
         let trial = Trial {
-            from: frame.state.t,
-            to: frame.state.t + AT_ONCE * dt,
+            from: t,
+            to: t + part * dt,
         };
-        let damping = solver.inertia.as_mut()?.damping.take();
-        let tried = self.euler().attempt(model, frame, contact, solver, trial);
+        let tried = euler.attempt(model, frame, contact, solver, trial);
+        // They are not reported.
         solver.seen.clear();
-        let inertia = solver.inertia.as_mut()?;
-        inertia.damping = damping;
-        // It knows of no damping.
-        inertia.forget_matrices();
-        let accepted = tried.ok()?;
-        let contacts = Arc::make_mut(&mut frame.contacts);
-        let all = contact.interfaces.iter().zip(&mut contacts.interfaces);
-        for ((interface, history), conditions) in all.zip(&solver.conditions) {
-            adopt_light_tractions(history, conditions, &tried_tractions(interface));
-        }
-        let moved = frame.state.u.iter_mut().zip(&accepted.state.u);
-        for ((u, to), _) in moved.zip(&inertia.light).filter(|(_, light)| **light) {
-            *u = *to;
-        }
-        let internal = solver.bodies.forces(&frame.state.u);
-        let strain = solver.bodies.energy(Deformed {
-            u: &frame.state.u,
-            forces: &internal,
+        let tried = tried.map(|accepted| {
+            let (to, u) = (trial.to, &accepted.state.u);
+            let memory = &frame.contacts.couplings;
+            let add = |out: &mut [f64]| contact.couplings.add_tried(memory, to, u, out);
+            let coupled = coupling_forces(&model.links, u.len(), add);
+            difference(&accepted.contact, &coupled)
         });
-        let energy = &mut frame.ledger;
-        let strain = strain + energy.entered.thermal;
-        energy.belt_work += strain - energy.strain;
-        energy.strain = strain;
-        frame.motion.internal = internal;
-        frame.motion.start.clone_from(&frame.state.u);
-        Some(accepted.contact)
+        let interfaces = contact.interfaces.iter();
+        let after: Vec<_> = interfaces.map(tried_tractions).collect();
+        tried.map(|contact| (contact, after))
+    });
+    let [Ok((short, after)), Ok((long, _))] = tried else {
+        return None;
+    };
+    let change = difference(&short, &long);
+    if dot(&change, &change) > SUDDEN * SUDDEN * dot(&short, &short) {
+        return None;
     }
-
-    /// The method of Euler with what else is chosen.
-    fn euler(&self) -> Implicit {
-        Implicit {
-            dynamic: Dynamic {
-                contact_at: ContactAt::End,
-                error: None,
-                events: None,
-                ..self.dynamic
-            },
-            alphas: BACKWARD,
-        }
+    let contacts = Arc::make_mut(&mut frame.contacts);
+    for (history, tried) in contacts.interfaces.iter_mut().zip(&after) {
+        adopt_tractions(history, tried);
     }
-
-    /// The forces of the interfaces at the end of a short increment with the method of Euler: pressure holds what would go through, points stick that
-    /// the limit holds and others carry it. `None` where nothing touches, where no equilibrium is found, and at an impact, whose force is not that of
-    /// an instant.
-    fn tried_contact(
-        &self,
-        model: &Model,
-        frame: &mut Frame,
-        contact: &mut Contact,
-        solver: &mut Solver,
-        dt: f64,
-    ) -> Option<Vec<f64>> {
-        let t = frame.state.t;
-        let inertia = in_motion(&solver.inertia);
-        if !forces_are_sought(model, contact, inertia, t + AFTER * dt) {
-            return None;
-        }
-        let mut euler = self.euler();
-        let tried = TRIALS.map(|part| {
-            let trial = Trial {
-                from: t,
-                to: t + part * dt,
-            };
-            let tried = euler.attempt(model, frame, contact, solver, trial);
-            // They are not reported.
-            solver.seen.clear();
-            let tried = tried.map(|accepted| {
-                let (to, u) = (trial.to, &accepted.state.u);
-                let memory = &frame.contacts.couplings;
-                let add = |out: &mut [f64]| contact.couplings.add_tried(memory, to, u, out);
-                let coupled = coupling_forces(&model.links, u.len(), add);
-                difference(&accepted.contact, &coupled)
-            });
-            let interfaces = contact.interfaces.iter();
-            let after: Vec<_> = interfaces.map(tried_tractions).collect();
-            tried.map(|contact| (contact, after))
-        });
-        let [Ok((short, after)), Ok((long, _))] = tried else {
-            return None;
-        };
-        let change = difference(&short, &long);
-        if dot(&change, &change) > SUDDEN * SUDDEN * dot(&short, &short) {
-            return None;
-        }
-        let contacts = Arc::make_mut(&mut frame.contacts);
-        for (history, tried) in contacts.interfaces.iter_mut().zip(&after) {
-            adopt_tractions(history, tried);
-        }
-        let at = State {
-            t: t + AFTER * dt,
-            ..frame.state.clone()
-        };
-        let add = |out: &mut [f64]| contact.couplings.add_initial(&contacts.couplings, &at, out);
-        let known = coupling_forces(&model.links, at.u.len(), add);
-        Some(short.iter().zip(known).map(|(a, b)| a + b).collect())
-    }
+    let at = State {
+        t: t + AFTER * dt,
+        ..frame.state.clone()
+    };
+    let add = |out: &mut [f64]| contact.couplings.add_initial(&contacts.couplings, &at, out);
+    let known = coupling_forces(&model.links, at.u.len(), add);
+    Some(short.iter().zip(known).map(|(a, b)| a + b).collect())
 }
 
 /// Makes masses and initial velocities of a dynamic step ready.
@@ -444,7 +440,8 @@ fn initial_acceleration(
         .map(|(b, f)| *b && !f)
         .collect();
     let memory = &mut Arc::make_mut(&mut frame.contacts).couplings;
-    contact.couplings.start_motion(
+    motion::start_motion(
+        &contact.couplings,
         memory,
         &MotionStart {
             t,

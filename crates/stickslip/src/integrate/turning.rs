@@ -6,6 +6,8 @@
 
 use super::quasi_static::{QuasiStatic, pairs};
 use super::sight::{Ended, InertialFrame, in_space};
+use crate::body::couplings::fit;
+use crate::integrate::quasi_static;
 use crate::math::vector::difference;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
@@ -64,7 +66,12 @@ fn pass(
     let inside = sight.inside(model);
     let constraints = sight.constraints(model, trial.to);
     let fixed = constraints.fixed.clone();
-    (contact.couplings).fit(&solver.diagonal, &fixed, &model.links);
+    fit::fit(
+        &mut contact.couplings,
+        &solver.diagonal,
+        &fixed,
+        &model.links,
+    );
     let mut external = Vec::new();
     sight.load(model, &u, trial.to, &mut external);
     let missed = difference(&solver.bodies.forces(&u), &solver.stiffness.times(&u));
@@ -96,7 +103,7 @@ fn pass(
     let forces = found.forces.clone();
     let accepted = Accepted {
         flow: Flow {
-            work: inside.work(&fixed, &at.u, &forces, &external),
+            work: quasi_static::work(&inside, &fixed, &at.u, &forces, &external),
             ..Flow::default()
         },
         strain: solver.bodies.energy(Deformed {

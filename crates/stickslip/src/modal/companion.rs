@@ -16,125 +16,123 @@ const FOUND: f64 = 1e-12;
 /// How many modes, up to which frequency.
 pub(crate) type Asked = (usize, f64);
 
-impl Reduced {
-    /// Sums of the matrices, each multiplied.
-    fn sum(&self, k: usize, parts: [f64; 5]) -> f64 {
-        parts[0] * self.stiffness[k]
-            + parts[1] * self.damping[k]
-            + parts[2] * self.mass[k]
-            + parts[3] * self.factors[0] * self.friction[k]
-            + parts[4] * self.factors[1] * self.drag[k]
-            + parts[4] * (self.factors[0] - self.factors[1]) * self.approach[k]
-    }
+/// Sums of the matrices, each multiplied.
+fn sum(reduced: &Reduced, k: usize, parts: [f64; 5]) -> f64 {
+    parts[0] * reduced.stiffness[k]
+        + parts[1] * reduced.damping[k]
+        + parts[2] * reduced.mass[k]
+        + parts[3] * reduced.factors[0] * reduced.friction[k]
+        + parts[4] * reduced.factors[1] * reduced.drag[k]
+        + parts[4] * (reduced.factors[0] - reduced.factors[1]) * reduced.approach[k]
+}
 
-    /// The companion form about the shift, velocities over the pace.
-    fn companion(&self) -> Companion<'_> {
-        let r = self.basis.len();
-        let s = self.sigma;
-        let of = |parts: [f64; 5]| -> Vec<f64> { (0..r * r).map(|k| self.sum(k, parts)).collect() };
-        Companion {
-            factor: DenseLu::new(r, &of([1.0, s, s * s, 1.0, s])),
-            damping: of([0.0, 1.0, s, 0.0, 1.0]),
-            of: self,
+/// The companion form about the shift, velocities over the pace.
+fn companion(reduced: &Reduced) -> Companion<'_> {
+    let r = reduced.basis.len();
+    let s = reduced.sigma;
+    let of = |parts: [f64; 5]| -> Vec<f64> { (0..r * r).map(|k| sum(reduced, k, parts)).collect() };
+    Companion {
+        factor: DenseLu::new(r, &of([1.0, s, s * s, 1.0, s])),
+        damping: of([0.0, 1.0, s, 0.0, 1.0]),
+        of: reduced,
+    }
+}
+
+/// The operator as a matrix, row by row.
+fn dense(reduced: &Reduced) -> Vec<f64> {
+    let n = 2 * reduced.basis.len();
+    let unit = |j: usize| (0..n).map(|i| f64::from(u8::from(i == j))).collect();
+    let columns: Vec<Vec<f64>> = (0..n).map(unit).collect();
+    let images = companion(reduced).apply(&columns);
+    (0..n * n).map(|k| images[k % n][k / n]).collect()
+}
+
+/// Eigenvalues of the companion form of largest size with their vectors.
+fn largest(reduced: &Reduced, (count, to): Asked) -> Vec<(Complex, Vec<Complex>)> {
+    let n = 2 * reduced.basis.len();
+    if n == 0 {
+        return Vec::new();
+    }
+    if n <= LARGE {
+        let (values, vectors) = general(n, &dense(reduced)).unwrap_or_default();
+        return values.into_iter().zip(vectors).collect();
+    }
+    let companion = companion(reduced);
+    let far = |z: &Complex| 1.0 / size(z) > TAU * to + reduced.sigma;
+    let enough = |values: &[(Complex, f64)]| -> bool {
+        let first = values.iter().take_while(|(_, r)| *r <= FOUND).count();
+        first >= count || values[..first].iter().any(|(z, _)| far(z))
+    };
+    let mut apply = |all: &[Vec<f64>]| companion.apply(all);
+    let mut krylov = Krylov {
+        size: n,
+        rank: n,
+        apply: &mut apply,
+    };
+    let found = arnoldi(&mut krylov, n, &enough).into_iter();
+    let found = found.filter(|f| f.residual <= 1e3 * FOUND).map(|found| {
+        let [re, im] = found.vector;
+        let vector = re.into_iter().zip(im).map(|(re, im)| [re, im]);
+        (found.value, vector.collect())
+    });
+    found.collect()
+}
+
+/// Modes of least size by frequency, with displacements in the coordinates of the space.
+pub fn eigen(reduced: &Reduced, asked: Asked) -> Vec<Eigen> {
+    let found = nearest(reduced.sigma, largest(reduced, asked), asked);
+    modes(found, reduced.basis.len())
+}
+
+/// Their eigenvalues alone.
+pub fn values(reduced: &Reduced, asked: Asked) -> Vec<Complex> {
+    let n = 2 * reduced.basis.len();
+    if n == 0 {
+        return Vec::new();
+    }
+    let all: Vec<(Complex, ())> = match n <= LARGE {
+        true => {
+            let values = eigenvalues(n, &dense(reduced)).unwrap_or_default();
+            values.into_iter().map(|z| (z, ())).collect()
         }
-    }
-
-    /// The operator as a matrix, row by row.
-    fn dense(&self) -> Vec<f64> {
-        let n = 2 * self.basis.len();
-        let unit = |j: usize| (0..n).map(|i| f64::from(u8::from(i == j))).collect();
-        let columns: Vec<Vec<f64>> = (0..n).map(unit).collect();
-        let images = self.companion().apply(&columns);
-        (0..n * n).map(|k| images[k % n][k / n]).collect()
-    }
-
-    /// Eigenvalues of the companion form of largest size with their vectors.
-    fn largest(&self, (count, to): Asked) -> Vec<(Complex, Vec<Complex>)> {
-        let n = 2 * self.basis.len();
-        if n == 0 {
-            return Vec::new();
+        false => {
+            let found = largest(reduced, asked).into_iter();
+            found.map(|(z, _)| (z, ())).collect()
         }
-        if n <= LARGE {
-            let (values, vectors) = general(n, &self.dense()).unwrap_or_default();
-            return values.into_iter().zip(vectors).collect();
-        }
-        let companion = self.companion();
-        let far = |z: &Complex| 1.0 / size(z) > TAU * to + self.sigma;
-        let enough = |values: &[(Complex, f64)]| -> bool {
-            let first = values.iter().take_while(|(_, r)| *r <= FOUND).count();
-            first >= count || values[..first].iter().any(|(z, _)| far(z))
-        };
-        let mut apply = |all: &[Vec<f64>]| companion.apply(all);
-        let mut krylov = Krylov {
-            size: n,
-            rank: n,
-            apply: &mut apply,
-        };
-        let found = arnoldi(&mut krylov, n, &enough).into_iter();
-        let found = found.filter(|f| f.residual <= 1e3 * FOUND).map(|found| {
-            let [re, im] = found.vector;
-            let vector = re.into_iter().zip(im).map(|(re, im)| [re, im]);
-            (found.value, vector.collect())
-        });
-        found.collect()
-    }
+    };
+    let found = nearest(reduced.sigma, all, asked).into_iter();
+    found.map(|(z, ())| z).collect()
+}
 
-    /// Modes of least size by frequency, with displacements in the coordinates of the space.
-    pub fn eigen(&self, asked: Asked) -> Vec<Eigen> {
-        let found = nearest(self.sigma, self.largest(asked), asked);
-        modes(found, self.basis.len())
-    }
+/// The mode that grows fastest, relative to its size.
+pub fn fastest_of(reduced: &Reduced, asked: Asked) -> Complex {
+    fastest(&values(reduced, asked))
+}
 
-    /// Their eigenvalues alone.
-    pub fn values(&self, asked: Asked) -> Vec<Complex> {
-        let n = 2 * self.basis.len();
-        if n == 0 {
-            return Vec::new();
-        }
-        let all: Vec<(Complex, ())> = match n <= LARGE {
-            true => {
-                let values = eigenvalues(n, &self.dense()).unwrap_or_default();
-                values.into_iter().map(|z| (z, ())).collect()
+/// What modes in the coordinates of the space leave open in its equations, relative to what is in them.
+pub fn open(reduced: &Reduced, modes: &[Eigen]) -> Vec<f64> {
+    let r = reduced.basis.len();
+    let of = |parts: [f64; 5]| -> Vec<f64> { (0..r * r).map(|k| sum(reduced, k, parts)).collect() };
+    let matrices = [[1.0, 0.0, 0.0, 1.0, 0.0], [0.0, 1.0, 0.0, 0.0, 1.0]].map(of);
+    let [stiffness, damping] = &matrices;
+    let one = |mode: &Eigen| {
+        let [l, w] = mode.value;
+        let powers = [[1.0, 0.0], [l, w], [l * l - w * w, 2.0 * l * w]];
+        let mut open = 0.0;
+        for i in 0..r {
+            let rows = [stiffness, damping, &reduced.mass].map(|m| &m[i * r..(i + 1) * r]);
+            let mut left = [0.0; 2];
+            for (row, [a, b]) in rows.into_iter().zip(powers) {
+                let [x, y] = [0, 1].map(|q| dot(row, &mode.vector[q]));
+                left[0] += a * x - b * y;
+                left[1] += a * y + b * x;
             }
-            false => {
-                let found = self.largest(asked).into_iter();
-                found.map(|(z, _)| (z, ())).collect()
-            }
-        };
-        let found = nearest(self.sigma, all, asked).into_iter();
-        found.map(|(z, ())| z).collect()
-    }
-
-    /// The mode that grows fastest, relative to its size.
-    pub fn fastest(&self, asked: Asked) -> Complex {
-        fastest(&self.values(asked))
-    }
-
-    /// What modes in the coordinates of the space leave open in its equations, relative to what is in them.
-    pub fn open(&self, modes: &[Eigen]) -> Vec<f64> {
-        let r = self.basis.len();
-        let of = |parts: [f64; 5]| -> Vec<f64> { (0..r * r).map(|k| self.sum(k, parts)).collect() };
-        let matrices = [[1.0, 0.0, 0.0, 1.0, 0.0], [0.0, 1.0, 0.0, 0.0, 1.0]].map(of);
-        let [stiffness, damping] = &matrices;
-        let one = |mode: &Eigen| {
-            let [l, w] = mode.value;
-            let powers = [[1.0, 0.0], [l, w], [l * l - w * w, 2.0 * l * w]];
-            let mut open = 0.0;
-            for i in 0..r {
-                let rows = [stiffness, damping, &self.mass].map(|m| &m[i * r..(i + 1) * r]);
-                let mut left = [0.0; 2];
-                for (row, [a, b]) in rows.into_iter().zip(powers) {
-                    let [x, y] = [0, 1].map(|q| dot(row, &mode.vector[q]));
-                    left[0] += a * x - b * y;
-                    left[1] += a * y + b * x;
-                }
-                open += left[0] * left[0] + left[1] * left[1];
-            }
-            let whole: f64 = mode.vector.iter().map(|x| dot(x, x)).sum();
-            (open / whole.max(f64::MIN_POSITIVE)).sqrt()
-        };
-        modes.iter().map(one).collect()
-    }
+            open += left[0] * left[0] + left[1] * left[1];
+        }
+        let whole: f64 = mode.vector.iter().map(|x| dot(x, x)).sum();
+        (open / whole.max(f64::MIN_POSITIVE)).sqrt()
+    };
+    modes.iter().map(one).collect()
 }
 
 /// Of the eigenvalues `1/(λ - σ)` those that belong to modes of least size, as such of modes, by frequency.

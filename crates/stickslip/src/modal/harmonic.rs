@@ -16,6 +16,7 @@ use super::shifted::Shifted;
 use crate::error::RunError;
 use crate::linear::{DenseLu, RealModes};
 use crate::math::vector::dot;
+use crate::modal::{companion, shifted};
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::model::modal::HarmonicPlan;
@@ -196,7 +197,7 @@ impl Shaken<'_> {
     fn answers(&self, reduced: &Reduced, frequencies: &[f64], solves: &mut usize) -> Vec<Answer> {
         let found: Vec<Pair> = frequencies
             .iter()
-            .map(|f| reduced.answer(&self.forces, TAU * f))
+            .map(|f| answer(reduced, &self.forces, TAU * f))
             .collect();
         let each = found.iter().zip(frequencies);
         let open: Vec<Vec<f64>> = each.flat_map(|(x, f)| self.open(x, TAU * f)).collect();
@@ -213,7 +214,7 @@ impl Shaken<'_> {
     /// `f - (K + i ω C - ω² M) x`.
     fn open(&self, x: &Pair, omega: f64) -> Pair {
         let linear = self.shifted.linear;
-        let mut parts = [0, 1].map(|q| linear.forces(&x[q], linear.rub(1.0)));
+        let mut parts = [0, 1].map(|q| shifted::forces(linear, &x[q], linear.rub(1.0)));
         for (part, x) in parts.iter_mut().zip(x) {
             self.add_modal(x, &mut part[1]);
         }
@@ -228,39 +229,38 @@ impl Shaken<'_> {
     }
 }
 
-impl Reduced {
-    /// Displacements under forces of an angular frequency.
-    fn answer(&self, forces: &Pair, omega: f64) -> Pair {
-        let r = self.basis.len();
-        if r == 0 {
-            // Forces of no size, and no mode near: nothing moves.
-            return forces.clone().map(|part| vec![0.0; part.len()]);
-        }
-        let still = |k: usize| self.stiffness[k] + self.friction[k] - omega * omega * self.mass[k];
-        let damped = |k: usize| omega * (self.damping[k] + self.drag[k]);
-        let entry = |k: usize| {
-            let (i, j) = (k / (2 * r), k % (2 * r));
-            let at = i % r * r + j % r;
-            match (i < r, j < r) {
-                (true, false) => -damped(at),
-                (false, true) => damped(at),
-                _ => still(at),
-            }
-        };
-        let matrix: Vec<f64> = (0..4 * r * r).map(entry).collect();
-        let parts = forces.iter();
-        let mut z: Vec<f64> = parts
-            .flat_map(|f| self.basis.iter().map(|q| dot(q, f)))
-            .collect();
-        DenseLu::new(2 * r, &matrix).solve(&mut z);
-        [0, 1].map(|q| {
-            let mut x = vec![0.0; forces[0].len()];
-            for (z, b) in z[q * r..].iter().zip(&self.basis) {
-                x.iter_mut().zip(b).for_each(|(x, b)| *x += z * b);
-            }
-            x
-        })
+/// Displacements under forces of an angular frequency.
+fn answer(reduced: &Reduced, forces: &Pair, omega: f64) -> Pair {
+    let r = reduced.basis.len();
+    if r == 0 {
+        // Forces of no size, and no mode near: nothing moves.
+        return forces.clone().map(|part| vec![0.0; part.len()]);
     }
+    let still =
+        |k: usize| reduced.stiffness[k] + reduced.friction[k] - omega * omega * reduced.mass[k];
+    let damped = |k: usize| omega * (reduced.damping[k] + reduced.drag[k]);
+    let entry = |k: usize| {
+        let (i, j) = (k / (2 * r), k % (2 * r));
+        let at = i % r * r + j % r;
+        match (i < r, j < r) {
+            (true, false) => -damped(at),
+            (false, true) => damped(at),
+            _ => still(at),
+        }
+    };
+    let matrix: Vec<f64> = (0..4 * r * r).map(entry).collect();
+    let parts = forces.iter();
+    let mut z: Vec<f64> = parts
+        .flat_map(|f| reduced.basis.iter().map(|q| dot(q, f)))
+        .collect();
+    DenseLu::new(2 * r, &matrix).solve(&mut z);
+    [0, 1].map(|q| {
+        let mut x = vec![0.0; forces[0].len()];
+        for (z, b) in z[q * r..].iter().zip(&reduced.basis) {
+            x.iter_mut().zip(b).for_each(|(x, b)| *x += z * b);
+        }
+        x
+    })
 }
 
 /// Columns of displacements of probes.
@@ -293,7 +293,7 @@ fn notes(
     // Without friction nothing grows.
     let [value, omega] = match linear.friction.is_empty() && linear.drag.is_empty() {
         true => [0.0; 2],
-        false => reduced.fastest((plan.count, f64::INFINITY)),
+        false => companion::fastest_of(reduced, (plan.count, f64::INFINITY)),
     };
     if value > UNSTABLE * value.hypot(omega) {
         notes.push(format!(

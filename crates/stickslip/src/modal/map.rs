@@ -19,6 +19,7 @@ use super::reduced::{Reduced, images};
 use super::shifted::Shifted;
 use crate::linear::Complex;
 use crate::math::vector::norm;
+use crate::modal::companion;
 use crate::model::modal::{MapOver, MapPlan};
 
 /// Rounds in which what modes leave open is added, at most.
@@ -139,7 +140,7 @@ pub(crate) fn space(
             break;
         };
         over.set(tried[worst], &mut reduced);
-        let modes = reduced.eigen(asked);
+        let modes = companion::eigen(&reduced, asked);
         let open = estimate.open(&reduced, over.rub(), &modes);
         known[worst] = largest(&open);
         let bad = modes
@@ -176,7 +177,7 @@ impl Space {
         let mut few = Few::default();
         for factor in [from, middle, to] {
             over.set(factor, &mut whole);
-            few.add(&whole, &whole.eigen(asked), NEW);
+            few.add(&whole, &companion::eigen(&whole, asked), NEW);
         }
         let mut untried = vec![[from, middle], [middle, to]];
         while let Some([from, to]) = untried.pop() {
@@ -187,11 +188,11 @@ impl Space {
             let middle = 0.5 * (from + to);
             over.set(middle, &mut whole);
             few.take(&whole);
-            let open = whole.open(&few.eigen(&whole, asked));
+            let open = companion::open(&whole, &few.eigen(&whole, asked));
             if open.into_iter().all(|open| open <= CLOSE) {
                 continue;
             }
-            few.add(&whole, &whole.eigen(asked), NEW);
+            few.add(&whole, &companion::eigen(&whole, asked), NEW);
             if few.len() > known {
                 untried.extend([[from, middle], [middle, to]]);
             }
@@ -218,7 +219,7 @@ impl Space {
     fn values(&self, asked: Asked) -> Vec<Complex> {
         match &self.few {
             Some(few) => few.values(&self.whole, asked),
-            None => self.whole.values(asked),
+            None => companion::values(&self.whole, asked),
         }
     }
 
@@ -226,7 +227,7 @@ impl Space {
     fn eigen(&self, asked: Asked) -> Vec<Eigen> {
         match &self.few {
             Some(few) => few.eigen(&self.whole, asked),
-            None => self.whole.eigen(asked),
+            None => companion::eigen(&self.whole, asked),
         }
     }
 

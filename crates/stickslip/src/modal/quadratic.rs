@@ -6,6 +6,7 @@ use std::f64::consts::TAU;
 use super::linear::{FrictionTerms, Linear, Pair, add_pairs};
 use super::shifted::{Root, Shifted};
 use crate::linear::{Complex, Krylov, arnoldi};
+use crate::modal::shifted;
 
 /// Estimate of the residual at which a mode counts as found.
 const TOLERANCE: f64 = 1e-11;
@@ -162,7 +163,7 @@ pub(super) fn order(a: &Complex, b: &Complex) -> Ordering {
 pub(crate) fn open(linear: &Linear, eigen: &Eigen, rub: FrictionTerms) -> [Vec<f64>; 2] {
     let [l, w] = eigen.value;
     let powers = [[1.0, 0.0], [l, w], [l * l - w * w, 2.0 * l * w]];
-    let [x, y] = [0, 1].map(|k| linear.forces(&eigen.vector[k], rub));
+    let [x, y] = [0, 1].map(|k| shifted::forces(linear, &eigen.vector[k], rub));
     let mut open = [0, 1].map(|_| vec![0.0; linear.size()]);
     for (q, [a, b]) in powers.into_iter().enumerate() {
         for i in (0..linear.size()).filter(|&i| !linear.fixed[i]) {

@@ -12,6 +12,7 @@ use super::quadratic::{Eigen, solve};
 use super::shifted::{Root, Shifted};
 use crate::linear::{BlockCsr, Complex, pencil};
 use crate::math::vector::dot;
+use crate::modal::shifted;
 use crate::model::definition::Model;
 
 /// Distance of two eigenvalues that are one, relative to their size.
@@ -118,9 +119,11 @@ fn changes(
         }
         out
     };
-    let below = project(&|x| linear.forces(x, linear.rub(1.0)), &|[l, w]| {
-        [[0.0; 2], [1.0, 0.0], [2.0 * l, 2.0 * w]]
-    });
+    let below =
+        project(
+            &|x| shifted::forces(linear, x, linear.rub(1.0)),
+            &|[l, w]| [[0.0; 2], [1.0, 0.0], [2.0 * l, 2.0 * w]],
+        );
     let each = quantities.iter().map(|quantity| {
         let above = project(&*quantity.change, &|v| [[1.0, 0.0], v, times(v, v)]);
         let mut values = pencil(m, &above, &below)?;

@@ -266,16 +266,14 @@ impl Root {
     }
 }
 
-impl Linear {
-    /// Forces of stiffness, damping and mass of a displacement, with such friction.
-    pub fn forces(&self, x: &[f64], rub: FrictionTerms) -> [Vec<f64>; 3] {
-        let mut k = self.times(&self.stiffness, x);
-        add_pairs(rub.friction, rub.factors[0], x, &mut k);
-        let mut c = self.damped(x);
-        for (approach, factor) in [true, false].into_iter().zip(rub.factors) {
-            let own = rub.drag.iter().filter(|p| p.approach == approach);
-            add_pairs(own, factor, x, &mut c);
-        }
-        [k, c, self.times(&self.mass, x)]
+/// Forces of stiffness, damping and mass of a displacement, with such friction.
+pub fn forces(linear: &Linear, x: &[f64], rub: FrictionTerms) -> [Vec<f64>; 3] {
+    let mut k = linear.times(&linear.stiffness, x);
+    add_pairs(rub.friction, rub.factors[0], x, &mut k);
+    let mut c = linear.damped(x);
+    for (approach, factor) in [true, false].into_iter().zip(rub.factors) {
+        let own = rub.drag.iter().filter(|p| p.approach == approach);
+        add_pairs(own, factor, x, &mut c);
     }
+    [k, c, linear.times(&linear.mass, x)]
 }

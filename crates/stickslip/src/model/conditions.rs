@@ -6,6 +6,7 @@ use super::contact::Contact;
 use super::definition::{Model, Support};
 use super::frame::Frame;
 use crate::body::couplings::StepTimes;
+use crate::model::thermal;
 use crate::system::Constraints;
 
 impl Frame {
@@ -116,7 +117,7 @@ impl Frame {
 
     /// Adds so many times what temperatures at a time and second fields press with to `out` `[N]`, by dof.
     pub(crate) fn add_thermal_forces(&self, model: &Model, t: f64, times: f64, out: &mut [f64]) {
-        model.add_thermal_forces(t, times, out);
+        thermal::add_thermal_forces(model, t, times, out);
         for (field, values) in model.actions.fields.iter().zip(&self.fields) {
             field.add_forces(values, times, out);
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::capability::{Feature, Subject, limit};
 use super::definition::Step;
 use super::frame::{ContactMemory, Frame};
-use crate::body::couplings::{Couplings, CouplingsForce, CouplingsView};
+use crate::body::couplings::{Couplings, CouplingsForce, CouplingsView, explicit, force};
 use crate::contact::interface::{
     self, Conditions, ContactView, History, Interface, InterfaceForce,
 };
@@ -98,7 +98,7 @@ impl Contact {
         let next = forces.iter_mut().map(|i| interface::commit(i, stage));
         ContactMemory {
             interfaces: next.collect(),
-            couplings: self.couplings.commit(&memory.couplings, stage),
+            couplings: force::commit(&self.couplings, &memory.couplings, stage),
         }
     }
 
@@ -112,7 +112,11 @@ impl Contact {
         for (interface, history) in self.interfaces.iter_mut().zip(&mut memory.interfaces) {
             bring(interface::use_springs(interface, history, wanted));
         }
-        bring(self.couplings.use_springs(&mut memory.couplings, wanted));
+        bring(explicit::use_springs(
+            &mut self.couplings,
+            &mut memory.couplings,
+            wanted,
+        ));
     }
 
     /// Exchanges the laws that change with a step; the energy by which they now store more `[J]`, one by one.

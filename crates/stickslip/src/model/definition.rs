@@ -9,7 +9,7 @@ use super::limits::Limits;
 use super::modal::{KickPlan, Modal, SteadyPlan};
 use super::second_field::SecondField;
 use crate::body::loads::{Load, Spring};
-use crate::body::{Elastic, MassKind, Space};
+use crate::body::{Elastic, MassKind, Space, fields};
 use crate::contact::interface::{Change, Steady};
 use crate::fatigue::FatigueModel;
 use crate::io::frd::Encoding;
@@ -152,7 +152,7 @@ impl Body {
     /// Adds the fields of a state. In a rigid body there is no stress.
     pub fn fields(&self, state: &State, out: &mut Fields) {
         if self.rigid.is_none() {
-            self.elastic.fields(state, out);
+            fields::fields(&self.elastic, state, out);
             return;
         }
         let at_rest = State {
@@ -160,14 +160,14 @@ impl Body {
             u: vec![0.0; state.u.len()],
             ..State::default()
         };
-        self.elastic.fields(&at_rest, out);
+        fields::fields(&self.elastic, &at_rest, out);
     }
 
     /// Adds strain and strain energy per volume at the points, `E` and `ENER`: more than [`fields`](Body::fields) has.
     pub fn strain_fields(&self, state: &State, out: &mut Fields) {
         match self.rigid {
-            None => self.elastic.strain_fields(state, out),
-            Some(_) => self.elastic.strain_fields(&vec![0.0; state.u.len()], out),
+            None => fields::strain_fields(&self.elastic, state, out),
+            Some(_) => fields::strain_fields(&self.elastic, &vec![0.0; state.u.len()], out),
         }
     }
 }

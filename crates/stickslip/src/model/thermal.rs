@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::definition::Model;
 use super::heat::{Heat, Pressed};
-use crate::body::{At, Warm};
+use crate::body::{At, Warm, recover};
 use crate::math::vector::dot;
 
 /// Weights whose largest is one, and what they are multiplied by.
@@ -22,40 +22,38 @@ fn scaled(mut weights: Vec<[f64; 2]>) -> (Vec<[f64; 2]>, f64) {
     (weights, largest)
 }
 
-impl Heat {
-    /// Forces and energy at a time, and by how much the forces have to be multiplied. Where strains are in proportion to temperatures, what grows
-    /// is the same to the last bit but for a factor: condensed bodies know it again. They follow from the time alone, whatever was asked for before.
-    fn at(&self, model: &Model, t: f64) -> (Arc<Pressed>, f64) {
-        let fields = self.temperatures.fields.iter();
-        let weights = fields.map(|f| f.weights(t)).collect();
-        let (weights, factor) = match linear(model) {
-            true => scaled(weights),
-            false => (weights, 1.0),
-        };
-        // A thread that panicked has left what is whole: it is put there at once.
-        let mut last = (self.last.lock()).unwrap_or_else(std::sync::PoisonError::into_inner);
-        if let Some(known) = last.as_ref().filter(|known| known.weights == weights) {
-            return (known.clone(), factor);
-        }
-        let rest = vec![0.0; model.dofs.count()];
-        let at = At {
-            u: &rest[..model.mesh.points.len() * model.dofs.dim],
-            warm: Warm::Weighted(&weights),
-        };
-        let (mut force, mut energy) = (rest.clone(), 0.0);
-        for body in model.elastic() {
-            body.elastic.internal_force(at, &mut force);
-            energy += body.elastic.strain_energy(at);
-        }
-        force.iter_mut().for_each(|f| *f = -*f);
-        let pressed = Arc::new(Pressed {
-            weights,
-            force,
-            energy,
-        });
-        *last = Some(pressed.clone());
-        (pressed, factor)
+/// Forces and energy at a time, and by how much the forces have to be multiplied. Where strains are in proportion to temperatures, what grows
+/// is the same to the last bit but for a factor: condensed bodies know it again. They follow from the time alone, whatever was asked for before.
+fn at(heat: &Heat, model: &Model, t: f64) -> (Arc<Pressed>, f64) {
+    let fields = heat.temperatures.fields.iter();
+    let weights = fields.map(|f| f.weights(t)).collect();
+    let (weights, factor) = match linear(model) {
+        true => scaled(weights),
+        false => (weights, 1.0),
+    };
+    // A thread that panicked has left what is whole: it is put there at once.
+    let mut last = (heat.last.lock()).unwrap_or_else(std::sync::PoisonError::into_inner);
+    if let Some(known) = last.as_ref().filter(|known| known.weights == weights) {
+        return (known.clone(), factor);
     }
+    let rest = vec![0.0; model.dofs.count()];
+    let at = At {
+        u: &rest[..model.mesh.points.len() * model.dofs.dim],
+        warm: Warm::Weighted(&weights),
+    };
+    let (mut force, mut energy) = (rest.clone(), 0.0);
+    for body in model.elastic() {
+        recover::internal_force(&body.elastic, at, &mut force);
+        energy += recover::strain_energy(&body.elastic, at);
+    }
+    force.iter_mut().for_each(|f| *f = -*f);
+    let pressed = Arc::new(Pressed {
+        weights,
+        force,
+        energy,
+    });
+    *last = Some(pressed.clone());
+    (pressed, factor)
 }
 
 /// Whether all strains are in proportion to temperatures.
@@ -65,34 +63,32 @@ fn linear(model: &Model) -> bool {
     dilations.all(|d| d.is_linear())
 }
 
-impl Model {
-    /// Adds so many times what temperatures press with at a time to `out` `[N]`, by dof.
-    pub(crate) fn add_thermal_forces(&self, t: f64, times: f64, out: &mut [f64]) {
-        if let Some(heat) = &self.actions.heat {
-            let (pressed, factor) = heat.at(self, t);
-            let both = out.iter_mut().zip(&pressed.force);
-            both.for_each(|(out, f)| *out += times * factor * f);
-        }
+/// Adds so many times what temperatures press with at a time to `out` `[N]`, by dof.
+pub(crate) fn add_thermal_forces(model: &Model, t: f64, times: f64, out: &mut [f64]) {
+    if let Some(heat) = &model.actions.heat {
+        let (pressed, factor) = at(heat, model, t);
+        let both = out.iter_mut().zip(&pressed.force);
+        both.for_each(|(out, f)| *out += times * factor * f);
     }
+}
 
-    /// By how much the strain energy at displacements and a time is more than that without thermal strain; and that of bodies that are held where they are
-    /// meshed `[J]`.
-    pub(crate) fn thermal_energy(&self, t: f64, u: &[f64]) -> [f64; 2] {
-        let Some(heat) = &self.actions.heat else {
-            return [0.0; 2];
-        };
-        let (pressed, factor) = heat.at(self, t);
-        let held = factor * factor * pressed.energy;
-        [held - factor * dot(u, &pressed.force), held]
-    }
+/// By how much the strain energy at displacements and a time is more than that without thermal strain; and that of bodies that are held where they are
+/// meshed `[J]`.
+pub(crate) fn thermal_energy(model: &Model, t: f64, u: &[f64]) -> [f64; 2] {
+    let Some(heat) = &model.actions.heat else {
+        return [0.0; 2];
+    };
+    let (pressed, factor) = at(heat, model, t);
+    let held = factor * factor * pressed.energy;
+    [held - factor * dot(u, &pressed.force), held]
+}
 
-    /// Whether temperatures move bodies.
-    pub fn is_heated(&self) -> bool {
-        self.actions.heat.as_ref().is_some_and(|h| {
-            let mut rises = h.temperatures.extremes().into_iter();
-            rises.any(|e| e != [0.0; 2])
-        })
-    }
+/// Whether temperatures move bodies.
+pub fn is_heated(model: &Model) -> bool {
+    model.actions.heat.as_ref().is_some_and(|h| {
+        let mut rises = h.temperatures.extremes().into_iter();
+        rises.any(|e| e != [0.0; 2])
+    })
 }
 
 #[cfg(test)]

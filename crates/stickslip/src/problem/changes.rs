@@ -9,32 +9,30 @@ use super::document::Document;
 use crate::error::{Diagnostic, Error};
 use crate::results::{Saved, Source};
 
-impl Document {
-    /// The problem file with which a run in a folder of results goes on: `problem.toml` there, which may have been changed, or else what was run.
-    ///
-    /// # Errors
-    /// [`Error::Io`] if it cannot be read.
-    pub fn of_results(directory: &Path, source: &Source) -> Result<Document, Error> {
-        let own = directory.join("problem.toml");
-        match own.is_file() {
-            true => Document::read(&own),
-            false => Ok(Document::new(source.problem.clone(), None)),
-        }
+/// The problem file with which a run in a folder of results goes on: `problem.toml` there, which may have been changed, or else what was run.
+///
+/// # Errors
+/// [`Error::Io`] if it cannot be read.
+pub fn of_results(directory: &Path, source: &Source) -> Result<Document, Error> {
+    let own = directory.join("problem.toml");
+    match own.is_file() {
+        true => Document::read(&own),
+        false => Ok(Document::new(source.problem.clone(), None)),
     }
+}
 
-    /// Refuses what cannot change in the middle of a run.
-    ///
-    /// # Errors
-    /// [`Error::Problem`] with each key that has.
-    pub fn check_changes(&self, problem: &Problem, saved: &Saved) -> Result<(), Error> {
-        let before = Document::new(saved.source.problem.clone(), None).problem()?;
-        let snapshot = &saved.snapshot;
-        let (step, ended) = (snapshot.step, snapshot.ended);
-        let findings = changed_keys(&before, problem, step, ended, snapshot.time);
-        match findings.is_empty() {
-            true => Ok(()),
-            false => Err(self.error(findings).into()),
-        }
+/// Refuses what cannot change in the middle of a run.
+///
+/// # Errors
+/// [`Error::Problem`] with each key that has.
+pub fn check_changes(document: &Document, problem: &Problem, saved: &Saved) -> Result<(), Error> {
+    let before = Document::new(saved.source.problem.clone(), None).problem()?;
+    let snapshot = &saved.snapshot;
+    let (step, ended) = (snapshot.step, snapshot.ended);
+    let findings = changed_keys(&before, problem, step, ended, snapshot.time);
+    match findings.is_empty() {
+        true => Ok(()),
+        false => Err(document.error(findings).into()),
     }
 }
 

@@ -12,7 +12,7 @@ mod amplitude;
 mod body;
 mod brief;
 mod build;
-mod changes;
+pub mod changes;
 mod check;
 mod coupling;
 mod data;

@@ -2,6 +2,7 @@
 //!
 //! Stress is that of the nodes, in the axes of the body as meshed. A cycle is the states at the ends of its increments. In a cycle that stands for many it is that of the one that is computed.
 
+use crate::body::fields;
 use crate::contact::look;
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -13,8 +14,7 @@ use crate::fatigue::{
     Criterion, CycleIncrement, Directions, FatigueModel, Found, History, Maximum, Record, Rubbed,
     Worst, worst,
 };
-use crate::math::symmetric_eigen;
-use crate::math::{Vec3, add, dot, norm, normalize, sub};
+use crate::math::{Vec3, add, dot, norm, normalize, sub, symmetric_eigen};
 use crate::model::contact::Contact;
 use crate::model::definition::{Body, Model};
 use crate::system::{Field, Fields, Location};
@@ -156,7 +156,7 @@ pub(crate) fn increment(view: &View, watched: &Watched, trial: Trial) -> Option<
     for lot in &watched.lots {
         let body = &view.model.bodies[lot.body];
         // Along axes that turn with the material, where the body turns as a whole.
-        let all = body.elastic.nodal_stress(&*strained);
+        let all = fields::nodal_stress(&body.elastic, &*strained);
         stresses.extend(lot.places.iter().flat_map(|&i| all[i]));
     }
     let interfaces = view.contacts();

@@ -5,6 +5,7 @@
 
 use super::history::Row;
 use crate::assess::view::View;
+use crate::body::mass;
 use crate::contact::interface::ContactView;
 use crate::contact::look;
 use crate::math::{Vec3, add_scaled, dot, norm, sub};
@@ -62,7 +63,7 @@ pub(crate) fn shares(model: &Model) -> Vec<f64> {
     if model.steps.iter().any(|s| s.cycles.is_some()) {
         shares.resize(model.mesh.points.len(), 0.0);
         for body in &model.bodies {
-            body.elastic.add_lumped_volume(&mut shares);
+            mass::add_lumped_volume(&body.elastic, &mut shares);
             let own = &mut shares[body.points.clone()];
             let volume: f64 = own.iter().sum();
             own.iter_mut().for_each(|s| *s /= volume);

@@ -6,16 +6,18 @@ use super::failures::refuse_unbalanced;
 use super::modes::find_kick;
 use super::parts::{Run, view};
 use super::position::Increments;
-use crate::assess::doctor;
+use crate::assess::{doctor, unsupported};
 use crate::contact::interface::mass_per_area;
 use crate::error::Error;
 use crate::integrate::explicit::Explicit;
-use crate::integrate::implicit::Implicit;
+use crate::integrate::onset;
 use crate::integrate::quasi_static::QuasiStatic;
 use crate::modal::linear::fault;
 use crate::model::capability::Feature;
 use crate::model::cycling::{Block, Jump};
 use crate::model::frame::Motion;
+use crate::solve::condensed::{candidates, condensing};
+use crate::solve::follow;
 use crate::time::scheme::Method;
 
 /// Begins a step.
@@ -65,12 +67,12 @@ pub(super) fn begin_step(run: &mut Run, step: usize) -> Result<(), Error> {
         Method::Implicit(alphas) => {
             // What is tried for the forces at the start is no increment that could be tried again.
             let interrupt = solver.newton.interrupt.take();
-            let begun = Implicit::begin(model, frame, contact, solver, dynamic, alphas);
+            let begun = onset::begin(model, frame, contact, solver, dynamic, alphas);
             solver.newton.interrupt = interrupt;
             Box::new(begun?)
         }
         Method::Explicit { .. } => {
-            solver.include_all(model, contact);
+            candidates::keep_all_points(solver, model, contact);
             let explicit = Explicit::begin(model, frame, contact, &solver.conditions, &dynamic)?;
             summary.explicit.mass_added = explicit.begun.mass_added;
             summary.explicit.stable_increment = explicit.begun.stable;
@@ -102,8 +104,8 @@ fn begin_static(run: &mut Run) -> Result<(), Error> {
     let contacts = Arc::make_mut(&mut frame.contacts);
     contact.use_springs(contacts, false, |energy| frame.ledger.initial += energy);
     run.integrator = Box::new(QuasiStatic);
-    solver.find_floating_bodies(model, frame, contact);
-    if let Some((finding, error)) = view!(run).refuse_rigid_modes() {
+    follow::find_floating_bodies(solver, model, frame, contact);
+    if let Some((finding, error)) = unsupported::refuse_rigid_modes(&view!(run)) {
         doctor::note(&mut run.summary.findings, finding);
         return Err(error.into());
     }
@@ -112,7 +114,7 @@ fn begin_static(run: &mut Run) -> Result<(), Error> {
         return Err(error);
     }
     let (model, frame) = (&run.model, &run.frame);
-    (run.solver).choose_candidates(model, frame, &run.contact);
-    (run.solver).condense(model, frame, &run.contact);
+    candidates::choose_candidates(&mut run.solver, model, frame, &run.contact);
+    condensing::condense(&mut run.solver, model, frame, &run.contact);
     Ok(())
 }

@@ -49,7 +49,7 @@ pub(super) fn close(
     }
     if summary.attempts.increments > 0 {
         let (limits, energy) = (&run.model.reports.quality, &summary.balance.energy_quality);
-        view.judge_energy(limits, energy, &mut summary.quality, &mut notes);
+        quality::judge_energy(&view, limits, energy, &mut summary.quality, &mut notes);
     }
     run.solver.log.notes.extend(notes);
     let told = run.tell_notes(observers);

@@ -1,8 +1,7 @@
 //! What is made of attempts that fail: notes for the summary, findings of the doctor, and the error in the end.
 
 use super::parts::{Run, view};
-use crate::assess::diagnosis;
-use crate::assess::doctor;
+use crate::assess::{diagnosis, doctor, no_equilibrium, unsupported};
 use crate::error::{Error, RunError};
 use crate::results::summary::FallbackSummary;
 use crate::system::{Cause, StepFailure};
@@ -96,7 +95,7 @@ pub(super) fn reject(run: &mut Run, trial: &Trial, failure: &StepFailure) {
 
 /// The error of an increment at the end of which contact cannot balance the loads: to halve it would only find out when.
 pub(super) fn refuse_unbalanced(run: &mut Run, trial: Trial) -> Option<Error> {
-    let (finding, error) = view!(run).refuse_unbalanced(trial.from, trial.to)?;
+    let (finding, error) = no_equilibrium::refuse_unbalanced(&view!(run), trial.from, trial.to)?;
     doctor::note(&mut run.summary.findings, finding);
     Some(error.into())
 }
@@ -112,7 +111,7 @@ pub(super) fn give_up(run: &mut Run, failure: StepFailure, trial: &Trial) -> Run
     }
     let view = run.view();
     if failure.cause == Cause::Singular {
-        let free = view.explain_free(&failure, trial);
+        let free = unsupported::explain_free(&view, &failure, trial);
         return free.unwrap_or_else(|| diagnosis::explain_singular(&view, &failure));
     }
     if failure.cause == Cause::Engine {

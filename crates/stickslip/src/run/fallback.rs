@@ -6,6 +6,7 @@ use super::position::Increments;
 use super::queue::TakenBack;
 use crate::error::Error;
 use crate::results::observer::Observer;
+use crate::solve::condensed::condensing;
 use crate::system::{Cause, StepFailure};
 
 /// Goes on from the increment before one that was taken back, with the sparse matrix.
@@ -35,7 +36,7 @@ pub(super) fn may_solve_sparsely(run: &Run, failure: &StepFailure) -> bool {
         failure.cause,
         Cause::Interior | Cause::Singular | Cause::LinearSolver
     );
-    arithmetic && run.solver.condenses()
+    arithmetic && condensing::condenses(&run.solver)
 }
 
 /// Goes on from the last accepted increment with the sparse matrix.
@@ -45,6 +46,12 @@ pub(super) fn solve_sparsely(
     observers: &mut [&mut dyn Observer],
 ) -> Result<(), Error> {
     run.reset_predictor();
-    (run.solver).give_condensing_up(&run.model, &run.frame, &run.contact, &failure.message);
+    condensing::give_condensing_up(
+        &mut run.solver,
+        &run.model,
+        &run.frame,
+        &run.contact,
+        &failure.message,
+    );
     run.tell_notes(observers)
 }

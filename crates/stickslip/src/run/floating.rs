@@ -7,6 +7,7 @@ use super::pending::flush;
 use crate::error::Error;
 use crate::results::observer::Observer;
 use crate::solve::accepted::Accepted;
+use crate::solve::{follow, released};
 use crate::system::StepFailure;
 use crate::time::Trial;
 
@@ -17,18 +18,36 @@ pub(super) fn prepare_floating(
     observers: &mut [&mut dyn Observer],
 ) -> Result<(), Error> {
     let solver = &mut run.solver;
-    if solver.has_gaps_to_close(&run.model, &run.frame, &run.contact, trial) {
+    if follow::has_gaps_to_close(solver, &run.model, &run.frame, &run.contact, trial) {
         flush(run, observers)?;
-        (run.solver).close_gaps(&run.model, &mut run.frame, &mut run.contact, trial);
+        follow::close_gaps(
+            &mut run.solver,
+            &run.model,
+            &mut run.frame,
+            &mut run.contact,
+            trial,
+        );
         run.tell_notes(observers)?;
     }
-    if (run.solver).is_to_keep_bodies(&run.model, &run.frame, trial) {
+    if released::is_to_keep_bodies(&run.solver, &run.model, &run.frame, trial) {
         flush(run, observers)?;
-        (run.solver).keep_bodies(&run.model, &run.frame, &mut run.contact, trial);
+        released::keep_bodies(
+            &mut run.solver,
+            &run.model,
+            &run.frame,
+            &mut run.contact,
+            trial,
+        );
         run.tell_notes(observers)?;
     }
     let waiting = !run.pending.is_empty();
-    (run.solver).set_out(&run.frame, &mut run.contact, trial, waiting);
+    follow::set_out(
+        &mut run.solver,
+        &run.frame,
+        &mut run.contact,
+        trial,
+        waiting,
+    );
     Ok(())
 }
 
@@ -45,13 +64,19 @@ pub(super) fn restarts(
     let floating = &mut run.solver.floating;
     if !floating.wants_restart(&run.model, &run.contact, &contacts, followed) {
         if anchored {
-            (run.solver).note_released(&run.model, &run.frame, accepted);
+            released::note_released(&mut run.solver, &run.model, &run.frame, accepted);
             run.tell_notes(observers)?;
         }
         return Ok(false);
     }
     flush(run, observers)?;
-    (run.solver).restart_from_rigid_motion(&run.model, &mut run.frame, &mut run.contact, trial);
+    follow::restart_from_rigid_motion(
+        &mut run.solver,
+        &run.model,
+        &mut run.frame,
+        &mut run.contact,
+        trial,
+    );
     run.tell_notes(observers)?;
     Ok(true)
 }
@@ -72,8 +97,8 @@ pub(super) fn anchors_again(
     flush(run, observers)?;
     let (model, frame, contact) = (&run.model, &mut run.frame, &mut run.contact);
     match stiffer {
-        true => run.solver.anchor(model, frame, contact, trial),
-        false => run.solver.follow(model, frame, contact, trial),
+        true => follow::anchor(&mut run.solver, model, frame, contact, trial),
+        false => follow::follow(&mut run.solver, model, frame, contact, trial),
     }
     run.tell_notes(observers)?;
     Ok(true)

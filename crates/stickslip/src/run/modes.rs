@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::parts::{Run, view};
 use crate::assess::figures::MODE_RESIDUAL;
+use crate::assess::prestress;
 use crate::assess::prestress::Shape;
 use crate::error::{Error, RunError};
 use crate::modal::{self, ModalOutcome, Mode};
@@ -106,7 +107,7 @@ fn judge_modes(run: &mut Run, outcome: &mut ModalOutcome) {
     let modes: Vec<Shape> = outcome.modes.iter().map(shape).collect();
     let (limits, gate) = (&run.model.reports.quality, &mut run.summary.quality);
     let mut notes = Vec::new();
-    view!(run).judge_prestress(&modes, limits, gate, &mut notes);
+    prestress::judge_prestress(&view!(run), &modes, limits, gate, &mut notes);
     let t = run.frame.state.t;
     let worst = (outcome.worst_residual()).filter(|_| limits.gate != GateMode::Off);
     if let Some(worst) = worst {

@@ -11,6 +11,7 @@ use super::queue::{Failed, Pending};
 use crate::error::Error;
 use crate::results::observer::{Event, Observer};
 use crate::solve::accepted::Accepted;
+use crate::solve::condensed::condensing;
 use crate::system::Cause;
 use crate::time::Trial;
 
@@ -82,7 +83,7 @@ pub(super) fn answer(
         }
         Cause::Reach => {
             flush(run, observers)?;
-            (run.solver).widen(&run.model, &run.frame, &run.contact);
+            condensing::widen(&mut run.solver, &run.model, &run.frame, &run.contact);
             run.tell_notes(observers)?;
         }
         Cause::Interior => {

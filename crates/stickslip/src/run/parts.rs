@@ -10,7 +10,7 @@ use super::queue::{Pending, TakenBack};
 use crate::assess::diagnosis::{beginning, soon, start_gaps};
 use crate::assess::doctor::{self, Finding, Watch};
 use crate::assess::view::View;
-use crate::body::Around;
+use crate::body::{Around, around};
 use crate::contact::look;
 use crate::error::Error;
 use crate::integrate::integrator::Integrator;
@@ -101,7 +101,11 @@ impl Run {
         let mut solver = Solver::new(&model, contact.interfaces.len(), library);
         solver.log.notes = notes;
         let frame = start(&model, &mut contact, &solver);
-        let probed = |point| model.elastic().find_map(|b| b.elastic.around(point));
+        let probed = |point| {
+            model
+                .elastic()
+                .find_map(|b| around::around(&b.elastic, point))
+        };
         let mut summary = Summary::new(&model, &contact);
         summary.balance.energy = frame.ledger;
         summary.balance.energy_quality.limit = model.solution.energy_limit;

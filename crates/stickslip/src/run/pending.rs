@@ -5,15 +5,15 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::queue::{Pending, TakenBack};
+use crate::assess::{quality, travel};
+use crate::solve::condensed::at_rest;
 
 use super::parts::{Run, view};
 use super::record::record;
 use crate::error::Error;
 use crate::fatigue::Maximum;
-use crate::results::fatigue;
-use crate::results::history;
-use crate::results::loops;
 use crate::results::observer::{Event, Observer};
+use crate::results::{fatigue, history, loops};
 use crate::solve::choice::TOGETHER;
 use crate::system::{Cause, StepFailure};
 use crate::time::Trial;
@@ -47,7 +47,7 @@ pub(super) fn commit(
     let stage = accepted.stage(&condensed.state, *trial);
     let after = contact.commit(solver.contacts(frame), &solver.conditions, &stage);
     let after = Arc::new(after);
-    pending.found = solver.move_ahead(&mut pending.accepted, pending.trial);
+    pending.found = at_rest::move_ahead(solver, &mut pending.accepted, pending.trial);
     pending.seen = solver.seen.take();
     solver.condenser.go_ahead(Some(Arc::clone(&after)));
     pending.after = Some(after);
@@ -73,7 +73,7 @@ pub(super) fn recover_pending(run: &mut Run) {
     let mut queue: VecDeque<Pending> = run.pending.drain(..).collect();
     let unknown = queue.iter_mut();
     let unknown = unknown.filter_map(|p| Some((p.found.as_ref()?, &mut p.accepted)));
-    run.solver.recover(unknown);
+    at_rest::recover(&mut run.solver, unknown);
     run.recovered = Some(queue);
 }
 
@@ -114,7 +114,15 @@ fn complete(run: &mut Run, one: &mut Pending) -> Result<(), StepFailure> {
         return Ok(());
     };
     let (model, frame, contact) = (&run.model, &mut run.frame, &mut run.contact);
-    (run.solver).complete(model, frame, contact, after, found, &mut one.accepted)
+    at_rest::complete(
+        &mut run.solver,
+        model,
+        frame,
+        contact,
+        after,
+        found,
+        &mut one.accepted,
+    )
 }
 
 /// Enters an increment into the ledger and tells the observers.
@@ -188,9 +196,10 @@ fn judge(run: &mut Run) {
     let limits = &run.model.reports.quality;
     let view = view!(run);
     let summary = &mut run.summary;
-    view.watch(&mut run.judges.watches);
-    view.judge_quality(limits, &mut summary.quality);
-    view.judge_travel(
+    quality::watch(&view, &mut run.judges.watches);
+    quality::judge_quality(&view, limits, &mut summary.quality);
+    travel::judge_travel(
+        &view,
         limits,
         &mut summary.quality,
         &mut summary.largest_rotation,

@@ -6,6 +6,7 @@ use crate::model::definition::Model;
 use crate::model::frame::{ContactMemory, Frame};
 use crate::model::ledger::{EnergyLedger, Flow};
 use crate::model::scene::Scene;
+use crate::model::thermal;
 use crate::results::summary::Summary;
 use crate::solve::accepted::{Accepted, Effort};
 
@@ -75,7 +76,7 @@ pub(crate) fn ledger_after(
     let flow = Flow {
         work: accepted.flow.work + coupled,
         damped: accepted.flow.damped + couplings.damped(),
-        thermal: model.thermal_energy(at.t, &at.u),
+        thermal: thermal::thermal_energy(model, at.t, &at.u),
         ..accepted.flow
     };
     let interfaces: Vec<_> = contact.views_of(after).map(|i| look::energy(i)).collect();

@@ -5,6 +5,7 @@ use std::time::Instant;
 use super::checkpoint::{AttemptState, Checkpoint, Position};
 use super::parts::Run;
 use super::position::{Increments, Steps};
+use crate::body::couplings::state as couplings_state;
 use crate::contact::interface::{History, memory, remember};
 use crate::error::{Error, RunError};
 use crate::integrate::explicit::{Explicit, ExplicitState, explicit};
@@ -14,6 +15,7 @@ use crate::integrate::quasi_static::QuasiStatic;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
+use crate::solve::state as solver_state;
 use crate::time::scheme::Method;
 
 /// All state from which the analysis goes on, with that which attempts change.
@@ -41,9 +43,9 @@ pub(super) fn attempt_state(run: &Run) -> AttemptState {
         interfaces: interfaces
             .map(|(i, conditions)| memory(i, conditions))
             .collect(),
-        couplings: run.contact.couplings.state(),
+        couplings: couplings_state::state(&run.contact.couplings),
         explicit: explicit(run.integrator.as_ref()).map(Explicit::state),
-        solver: run.solver.state(),
+        solver: solver_state::state(&run.solver),
     }
 }
 
@@ -90,10 +92,10 @@ pub(super) fn go_back_to(run: &mut Run, checkpoint: Checkpoint) -> Result<(), Er
     run.solver.conditions = all
         .map(|(interface, (history, memory))| remember(interface, history, memory, &u))
         .collect();
-    run.contact.couplings.go_on_from(working.couplings);
+    couplings_state::go_on_from(&mut run.contact.couplings, working.couplings);
     let t = frame.state.t;
     let (model, contact) = (&run.model, &mut run.contact);
-    let again = (run.solver).go_on_from(working.solver, model, &frame, contact);
+    let again = solver_state::go_on_from(&mut run.solver, working.solver, model, &frame, contact);
     again.map_err(|e| e.at(t))?;
     run.solver.condenser.go_ahead(ahead);
     run.integrator = integrator(&run.model, frame.step, working.explicit);

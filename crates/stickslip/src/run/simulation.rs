@@ -21,7 +21,7 @@ use super::queue::Failed;
 use super::restart::{attempt_state, checkpoint_with, resume};
 use super::sizes::{Sizes, sizes};
 use crate::assess::diagnosis::CheckReport;
-use crate::assess::doctor;
+use crate::assess::{diagnosis, doctor};
 use crate::error::Error;
 use crate::friction::FrictionProblem;
 use crate::integrate::explicit::explicit;
@@ -142,7 +142,7 @@ impl Simulation {
     /// Looks at the model without running it.
     pub fn check(&mut self) -> CheckReport {
         let (gaps, findings) = self.run.look();
-        self.run.view().check(&gaps, findings)
+        diagnosis::check(&self.run.view(), &gaps, findings)
     }
 
     /// How much the run will write, if it is asked before it begins.

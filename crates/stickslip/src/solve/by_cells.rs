@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use crate::body::{CellVisitor, Elastic};
+use crate::body::{CellVisitor, Elastic, portion};
 use crate::linear::{BlockCsr, Cells, Matrix, Summands};
 use crate::model::definition::{Model, Step};
 use crate::newton::condensed::Identity;
@@ -176,7 +176,7 @@ impl Cells for CellsOf<'_> {
             let (own, rest) = left.split_at(left.partition_point(|&cell| cell < behind));
             let own: Vec<u32> = own.iter().map(|cell| cell - first).collect();
             (left, first) = (rest, behind);
-            let (points, portion) = body.portion(&own);
+            let (points, portion) = portion::portion(body, &own);
             (points, portion.to_bytes())
         };
         self.bodies.iter().map(of_body).collect()

@@ -9,33 +9,37 @@ use crate::model::rigid::nearest::nearest_motion;
 use crate::system::Constraints;
 use crate::time::Trial;
 
-impl Solver {
-    /// Lets anchors begin where supports carry bodies in the increment. Anchors that stayed behind would hold a body back that slides under a drive: it would
-    /// tip about the support, and leave the surface that it slides on.
-    pub fn carry_anchors(&mut self, model: &Model, frame: &Frame, to: &Constraints, trial: Trial) {
-        let floating = &mut self.floating;
-        let Some((_, bodies)) = &floating.known else {
-            return;
+/// Lets anchors begin where supports carry bodies in the increment. Anchors that stayed behind would hold a body back that slides under a drive: it would
+/// tip about the support, and leave the surface that it slides on.
+pub fn carry_anchors(
+    solver: &mut Solver,
+    model: &Model,
+    frame: &Frame,
+    to: &Constraints,
+    trial: Trial,
+) {
+    let floating = &mut solver.floating;
+    let Some((_, bodies)) = &floating.known else {
+        return;
+    };
+    let Some(anchors) = &mut floating.anchors else {
+        return;
+    };
+    let from = frame.constraints(model, trial.from);
+    let both = from.fixed.iter().zip(&to.fixed);
+    let prescribed: Vec<usize> = both
+        .enumerate()
+        .filter(|(_, (before, now))| **before && **now)
+        .map(|(dof, _)| dof)
+        .collect();
+    let change = |dof: usize| to.values[dof] - from.values[dof];
+    for (k, free) in bodies.iter().enumerate() {
+        let carried = carried(model, &free.bodies, &prescribed, change);
+        let ahead = |p: usize| match &carried {
+            Some(u) => model.dofs.vector(u, p),
+            None => Vec3::default(),
         };
-        let Some(anchors) = &mut floating.anchors else {
-            return;
-        };
-        let from = frame.constraints(model, trial.from);
-        let both = from.fixed.iter().zip(&to.fixed);
-        let prescribed: Vec<usize> = both
-            .enumerate()
-            .filter(|(_, (before, now))| **before && **now)
-            .map(|(dof, _)| dof)
-            .collect();
-        let change = |dof: usize| to.values[dof] - from.values[dof];
-        for (k, free) in bodies.iter().enumerate() {
-            let carried = carried(model, &free.bodies, &prescribed, change);
-            let ahead = |p: usize| match &carried {
-                Some(u) => model.dofs.vector(u, p),
-                None => Vec3::default(),
-            };
-            anchors.begin_ahead(k, ahead);
-        }
+        anchors.begin_ahead(k, ahead);
     }
 }
 

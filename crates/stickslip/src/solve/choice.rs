@@ -70,110 +70,105 @@ pub(crate) struct Choice {
     pub reason: String,
 }
 
-impl Scene<'_> {
-    /// The cheapest way that fits into memory.
-    pub(crate) fn choose(&self, cost: &Cost, matrix: &BlockCsr, held: &[bool]) -> Choice {
-        let free = held.iter().filter(|h| !**h).count() as f64;
-        let candidates = cost.candidates as f64;
-        let [static_, moving] = self.increments_left();
-        let at_rest = match self.model.frames.is_empty() {
-            true => NEWTON[0],
-            false => NEWTON_TURNING,
+/// The cheapest way that fits into memory.
+pub(crate) fn choose(scene: &Scene, cost: &Cost, matrix: &BlockCsr, held: &[bool]) -> Choice {
+    let free = held.iter().filter(|h| !**h).count() as f64;
+    let candidates = cost.candidates as f64;
+    let [static_, moving] = increments_left(scene);
+    let at_rest = match scene.model.frames.is_empty() {
+        true => NEWTON[0],
+        false => NEWTON_TURNING,
+    };
+    let iterations = static_ * at_rest + moving * NEWTON[1];
+    let memory = available_memory().map(|free| free as f64);
+    let points: usize = scene
+        .contact
+        .interfaces
+        .iter()
+        .map(|i| i.points.len())
+        .sum();
+    let bytes = cost.bytes as f64 + pending_bytes(scene) as f64 * static_.min(TOGETHER as f64);
+    let what = format!(
+        "{} of {free} dofs are contact candidates; {:.3e} entries, {:.3e} + {:.3e} flops, {:.2} GB",
+        cost.candidates,
+        cost.nonzeros,
+        cost.factor,
+        cost.condense,
+        bytes / 1e9
+    );
+    let fits = |bytes: f64| memory.is_none_or(|m| bytes < MEMORY * m);
+    // A product of the inverse, half of which is read, and now and then a small factor of the gaps.
+    let gaps = (points * scene.model.dofs.dim) as f64;
+    let gaps = gaps.min(candidates);
+    let one = KRYLOV * (cost.dense + gaps * gaps) / STREAM + gaps.powi(3) / (3.0 * DENSE * SERVES);
+    let sweeps = (0.25 * static_ + 2.0 * moving) * cost.nonzeros / STREAM;
+    let condensed = (cost.factor + cost.condense) / DENSE + iterations * one + sweeps;
+    if candidates <= FEW * free && cost.condense <= cost.factor && fits(bytes) && condensed < LONG {
+        return Choice {
+            method: Solution::Condensed,
+            reason: what,
         };
-        let iterations = static_ * at_rest + moving * NEWTON[1];
-        let memory = available_memory().map(|free| free as f64);
-        let points: usize = self.contact.interfaces.iter().map(|i| i.points.len()).sum();
-        let bytes = cost.bytes as f64 + self.pending_bytes() as f64 * static_.min(TOGETHER as f64);
-        let what = format!(
-            "{} of {free} dofs are contact candidates; {:.3e} entries, {:.3e} + {:.3e} flops, {:.2} GB",
-            cost.candidates,
-            cost.nonzeros,
-            cost.factor,
-            cost.condense,
-            bytes / 1e9
-        );
-        let fits = |bytes: f64| memory.is_none_or(|m| bytes < MEMORY * m);
-        // A product of the inverse, half of which is read, and now and then a small factor of the gaps.
-        let gaps = (points * self.model.dofs.dim) as f64;
-        let gaps = gaps.min(candidates);
-        let one =
-            KRYLOV * (cost.dense + gaps * gaps) / STREAM + gaps.powi(3) / (3.0 * DENSE * SERVES);
-        let sweeps = (0.25 * static_ + 2.0 * moving) * cost.nonzeros / STREAM;
-        let condensed = (cost.factor + cost.condense) / DENSE + iterations * one + sweeps;
-        if candidates <= FEW * free
-            && cost.condense <= cost.factor
-            && fits(bytes)
-            && condensed < LONG
-        {
-            return Choice {
-                method: Solution::Condensed,
-                reason: what,
-            };
-        }
-        let grids = SETUP * free + iterations * CYCLES * CYCLE * free;
-        let mut ways = vec![(Solution::Condensed, condensed, bytes)];
-        // Only now it is worth while to know what the others cost; of the sparse matrix that takes an ordering of its own.
-        let refactored = 1.0 + iterations / SPARSE_SERVES;
-        let hopeless = fits(bytes) && FREE_ORDER * cost.factor / DENSE * refactored > condensed;
-        if !hopeless && let Ok(symbolic) = Symbolic::analyze(matrix, held, &[]) {
-            let (flops, nonzeros) = (symbolic.flops(), symbolic.factor_nonzeros() as f64);
-            let sparse = flops / DENSE * refactored
-                + iterations
-                    * SPARSE_KRYLOV
-                    * SPARSE_SOLVE
-                    * (2.0 * nonzeros + matrix.nnz() as f64)
-                    / STREAM;
-            ways.push((Solution::Sparse, sparse, 10.0 * nonzeros));
-        }
-        if self.model.dofs.dim == 3 {
-            ways.push((Solution::Multigrid, grids, GRID_BYTES * free));
-        }
-        let list: Vec<String> = ways
-            .iter()
-            .map(|(way, seconds, bytes)| {
-                format!("{way:?} {seconds:.2} ({:.2} GB)", bytes / 1e9).to_lowercase()
-            })
-            .collect();
-        // Where it decides nothing it differs for nothing.
-        let scarce = ways.iter().any(|(_, _, bytes)| !fits(*bytes));
-        let free_memory = (memory.filter(|_| scarce))
-            .map_or(String::new(), |m| format!(", {:.2} GB are free", m / 1e9));
-        let possible = ways.iter().filter(|(_, _, bytes)| fits(*bytes));
-        let best = possible.min_by(|a, b| a.1.total_cmp(&b.1));
-        // If nothing fits, the factorisation says how much it would take.
-        Choice {
-            method: best.map_or(Solution::Sparse, |(way, ..)| *way),
-            reason: format!(
-                "{what}; about {iterations:.0} iterations would cost (seconds of some machine): {}{free_memory}",
-                list.join(", ")
-            ),
-        }
     }
-
-    /// Memory that an increment takes until it is reported `[bytes]`.
-    fn pending_bytes(&self) -> usize {
-        let interfaces = self.contact.interfaces.iter();
-        let histories: usize = interfaces.map(|i| i.history_bytes()).sum();
-        histories + VECTORS * size_of::<f64>() * self.model.dofs.count()
+    let grids = SETUP * free + iterations * CYCLES * CYCLE * free;
+    let mut ways = vec![(Solution::Condensed, condensed, bytes)];
+    // Only now it is worth while to know what the others cost; of the sparse matrix that takes an ordering of its own.
+    let refactored = 1.0 + iterations / SPARSE_SERVES;
+    let hopeless = fits(bytes) && FREE_ORDER * cost.factor / DENSE * refactored > condensed;
+    if !hopeless && let Ok(symbolic) = Symbolic::analyze(matrix, held, &[]) {
+        let (flops, nonzeros) = (symbolic.flops(), symbolic.factor_nonzeros() as f64);
+        let sparse = flops / DENSE * refactored
+            + iterations * SPARSE_KRYLOV * SPARSE_SOLVE * (2.0 * nonzeros + matrix.nnz() as f64)
+                / STREAM;
+        ways.push((Solution::Sparse, sparse, 10.0 * nonzeros));
     }
+    if scene.model.dofs.dim == 3 {
+        ways.push((Solution::Multigrid, grids, GRID_BYTES * free));
+    }
+    let list: Vec<String> = ways
+        .iter()
+        .map(|(way, seconds, bytes)| {
+            format!("{way:?} {seconds:.2} ({:.2} GB)", bytes / 1e9).to_lowercase()
+        })
+        .collect();
+    // Where it decides nothing it differs for nothing.
+    let scarce = ways.iter().any(|(_, _, bytes)| !fits(*bytes));
+    let free_memory = (memory.filter(|_| scarce))
+        .map_or(String::new(), |m| format!(", {:.2} GB are free", m / 1e9));
+    let possible = ways.iter().filter(|(_, _, bytes)| fits(*bytes));
+    let best = possible.min_by(|a, b| a.1.total_cmp(&b.1));
+    // If nothing fits, the factorisation says how much it would take.
+    Choice {
+        method: best.map_or(Solution::Sparse, |(way, ..)| *way),
+        reason: format!(
+            "{what}; about {iterations:.0} iterations would cost (seconds of some machine): {}{free_memory}",
+            list.join(", ")
+        ),
+    }
+}
 
-    /// Quasi-static and dynamic increments from this step on, if none is cut.
-    fn increments_left(&self) -> [f64; 2] {
-        let mut counts = [0.0, 0.0];
-        let count = |s: &Step| {
-            let length = if s.fixed || s.dynamic.is_some() {
-                s.increments.initial
-            } else {
-                // they grow
-                (s.increments.initial * s.increments.largest).sqrt()
-            };
-            ((s.end - s.start) / length).clamp(1.0, MOST_INCREMENTS)
+/// Memory that an increment takes until it is reported `[bytes]`.
+fn pending_bytes(scene: &Scene) -> usize {
+    let interfaces = scene.contact.interfaces.iter();
+    let histories: usize = interfaces.map(|i| i.history_bytes()).sum();
+    histories + VECTORS * size_of::<f64>() * scene.model.dofs.count()
+}
+
+/// Quasi-static and dynamic increments from this step on, if none is cut.
+fn increments_left(scene: &Scene) -> [f64; 2] {
+    let mut counts = [0.0, 0.0];
+    let count = |s: &Step| {
+        let length = if s.fixed || s.dynamic.is_some() {
+            s.increments.initial
+        } else {
+            // they grow
+            (s.increments.initial * s.increments.largest).sqrt()
         };
-        for step in &self.model.steps[self.frame.step..] {
-            counts[usize::from(step.dynamic.is_some())] += count(step);
-        }
-        counts
+        ((s.end - s.start) / length).clamp(1.0, MOST_INCREMENTS)
+    };
+    for step in &scene.model.steps[scene.frame.step..] {
+        counts[usize::from(step.dynamic.is_some())] += count(step);
     }
+    counts
 }
 
 /// Whether so many bytes are free, as far as is known.

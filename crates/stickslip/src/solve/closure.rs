@@ -2,6 +2,7 @@
 
 use crate::contact::interface::{Conditions, meeting};
 use crate::math::{Vec3, add, add_scaled, dot, norm, scale};
+use crate::mesh::geometry;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
@@ -233,7 +234,7 @@ pub(crate) fn pushes(model: &Model, external: &[f64]) -> Vec<Push> {
         }
         let blocks = body.blocks.clone();
         let cells = model.mesh.cells().filter(|c| blocks.contains(&c.block));
-        push.volume = cells.map(|c| model.mesh.cell_measure(c)).sum();
+        push.volume = cells.map(|c| geometry::cell_measure(&model.mesh, c)).sum();
         pushes.push(push);
     }
     pushes

@@ -7,6 +7,7 @@ use crate::math::{add_scaled, norm};
 use crate::model::contact::Contact;
 use crate::model::definition::{Model, Step};
 use crate::model::frame::ContactMemory;
+use crate::model::rigid::drivers;
 use crate::model::rigid::drivers::named;
 use crate::model::rigid::free_bodies::FreeBody;
 use crate::model::scene::Scene;
@@ -303,7 +304,7 @@ impl Floating {
         let Some(first) = self.bodies().first() else {
             return "a body".into();
         };
-        let drivers = scene.drivers(first.bodies[0], trial.to);
+        let drivers = drivers::drivers(&scene, first.bodies[0], trial.to);
         let name = first.name(scene.model);
         match drivers.is_empty() {
             true => format!("body {name}"),
@@ -330,7 +331,7 @@ fn thrown(scene: Scene, astray: Astray, trial: Trial) -> StepFailure {
         way,
         most,
     } = astray;
-    let drivers = scene.drivers(body, trial.to);
+    let drivers = drivers::drivers(&scene, body, trial.to);
     let by = match drivers.is_empty() {
         true => String::new(),
         false => format!(", {} it", named(&drivers, "drives", "drive")),

@@ -4,7 +4,8 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::spin::mobility;
-use crate::body::MassKind;
+use crate::body::couplings::motion;
+use crate::body::{MassKind, mass};
 use crate::contact::interface::Interface;
 use crate::linear::{BlockCsr, Factor, GmresSettings, Isotropic, Symbolic, gmres};
 use crate::math::vector::dot;
@@ -100,7 +101,7 @@ impl Inertia {
         for body in &model.bodies {
             if body.rigid.is_some() {
                 light[body.points.clone()].fill(false);
-            } else if !body.elastic.add_mass(mass_kind, &light, &mut mass) {
+            } else if !mass::add_mass(&body.elastic, mass_kind, &light, &mut mass) {
                 body.points.clone().for_each(|p| light[p] = false);
             }
         }
@@ -182,7 +183,7 @@ impl Inertia {
     pub fn lead(&self, model: &Model, contact: &Contact, t: f64, fixed: &[bool], x: &mut [f64]) {
         let free = self.bare.iter().zip(fixed).map(|(b, f)| *b && !f);
         let free: Vec<bool> = free.collect();
-        (contact.couplings).follow(t, &model.links, &free, x);
+        motion::follow(&contact.couplings, t, &model.links, &free, x);
     }
 
     /// Makes the matrix for increments of about `dt` ready and returns the `dt` it is for.
@@ -457,7 +458,7 @@ fn factors(alphas: Alphas, dt: f64, weight: f64) -> [f64; 3] {
 pub(crate) fn lumped(model: &Model) -> Vec<f64> {
     let mut masses = vec![0.0; model.dofs.points];
     for body in model.elastic() {
-        body.elastic.add_lumped_mass(&mut masses);
+        mass::add_lumped_mass(&body.elastic, &mut masses);
     }
     for &(point, m) in &model.actions.masses {
         masses[point] += m;

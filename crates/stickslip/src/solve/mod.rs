@@ -23,18 +23,18 @@
 
 pub(crate) mod accepted;
 mod by_cells;
-mod carried;
+pub(crate) mod carried;
 pub(crate) mod checks;
 pub(crate) mod choice;
 mod closure;
-mod condensed;
+pub(crate) mod condensed;
 pub(crate) mod condenser;
 pub(crate) mod floating_bodies;
-mod follow;
+pub(crate) mod follow;
 pub(crate) mod inertia;
 pub(crate) mod iteration;
 mod pressed;
-mod released;
+pub(crate) mod released;
 mod rigid_part;
 pub(crate) mod solver;
 pub(crate) mod spin;

@@ -2,6 +2,7 @@
 //! number of threads.
 
 use std::path::{Path, PathBuf};
+use stickslip_mechanics::mesh::geometry;
 
 use stickslip::Error;
 use stickslip::problem::Document;
@@ -197,7 +198,7 @@ fn check(name: &str) {
         );
         let (sparse, _) = run(simulation(&case, &overrides, "sparse"));
         let (limit, quiet) = demanded(name);
-        let rounding = ROUNDING * after.model.mesh.diameter();
+        let rounding = ROUNDING * geometry::diameter(&after.model.mesh);
         let size = largest(sparse.displacements.iter().flatten());
         let force = sparse.force;
         let rows = if quiet {

@@ -4,6 +4,8 @@ use crate::support;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 use stickslip::contact::look;
+use stickslip_mechanics::body::{cells, recover};
+use stickslip_mechanics::mesh::{check, geometry};
 
 use stickslip::body::{CellState, Elastic, Formulation, Part, Space};
 use stickslip::linear::{BlockCsr, Factor, Symbolic};
@@ -83,7 +85,7 @@ fn hexahedra_and_wedges() -> Mesh {
             *p = [p[0] + noise(12.9), p[1] + noise(78.2), p[2] + noise(37.7)];
         }
     }
-    mesh.check().unwrap();
+    check::check(&mesh).unwrap();
     mesh
 }
 
@@ -117,9 +119,9 @@ fn hexahedra_and_wedges_pass_the_patch_test_together_in_every_formulation() {
         for (u, e) in u.iter().zip(&exact) {
             assert!((u - e).abs() < 1e-12, "{formulation:?}: {u} {e}");
         }
-        let first = body.stress_at_quadrature(&u)[0].stress;
+        let first = cells::stress_at_quadrature(&body, &u)[0].stress;
         let mut count = 0;
-        body.each_cell_state(&u, &mut |cell| {
+        cells::each_cell_state(&body, &u, &mut |cell| {
             count += 1;
             for point in &cell.points {
                 for (a, b) in point.stress.iter().zip(first) {
@@ -268,7 +270,7 @@ fn a_flat_ring_of_reduced_cells_resists_being_turned_over() {
         let turn = |p: &[f64; 3]| [phi * (p[1] - 0.25), -phi * (p[0] - 4.5)];
         let u: Vec<f64> = mesh.points.iter().flat_map(turn).collect();
         let exact = 0.5 * YOUNG * phi * phi * TAU * (5.0_f64 / 4.0).ln() * 0.5_f64.powi(3) / 12.0;
-        let ratio = body.strain_energy(&u) / exact;
+        let ratio = recover::strain_energy(&body, &u) / exact;
         assert!((ratio - 1.0).abs() < 0.02, "{layers}: {ratio}");
     }
 }
@@ -276,7 +278,7 @@ fn a_flat_ring_of_reduced_cells_resists_being_turned_over() {
 /// The states of all cells.
 fn states(body: &Elastic, u: &[f64]) -> Vec<CellState> {
     let mut all = Vec::new();
-    body.each_cell_state(u, &mut |state| all.push(state.clone()));
+    cells::each_cell_state(body, u, &mut |state| all.push(state.clone()));
     all
 }
 
@@ -377,8 +379,8 @@ fn cells_have_the_integration_points_of_calculix_in_its_order() {
             }
         }
         let volume: f64 = points.iter().map(|p| p.volume).sum();
-        assert!((volume - mesh.measure()).abs() < 1e-12, "{kind}");
-        let energy = body.strain_energy(&u);
+        assert!((volume - geometry::measure(mesh)).abs() < 1e-12, "{kind}");
+        let energy = recover::strain_energy(&body, &u);
         assert!(
             energy > 0.0 && (all[0].energy - energy).abs() <= 1e-14 * energy,
             "{kind}"
@@ -404,7 +406,7 @@ fn energies_of_cells_are_those_of_the_stiffness() {
             .map(|d| 1e-3 * (12.9898 * d as f64 + 4.1).sin())
             .collect();
         let mut force = vec![0.0; u.len()];
-        body.internal_force(&u, &mut force);
+        recover::internal_force(&body, &u, &mut force);
         let work: f64 = 0.5 * force.iter().zip(&u).map(|(f, u)| f * u).sum::<f64>();
         let sum: f64 = states(&body, &u).iter().map(|s| s.energy).sum();
         assert!((work - sum).abs() < 1e-11 * work, "{kind}: {work} {sum}");

@@ -3,6 +3,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+use stickslip_mechanics::mesh::check;
 
 use stickslip::io::{gmsh, vtu};
 use stickslip::problem::Document;
@@ -236,8 +237,8 @@ fn read_damaged(files: Vec<(String, Vec<u8>)>, times: u64, read: fn(&[u8])) {
 fn damaged_meshes_make_no_panic() {
     read_damaged(files("tests/meshes", "msh"), 12, |bytes| {
         if let Ok(mesh) = gmsh::parse(bytes, Path::new("a.msh")) {
-            mesh.check_structure().expect("what is read is sound");
-            let _ = mesh.check();
+            check::check_structure(&mesh).expect("what is read is sound");
+            let _ = check::check(&mesh);
         }
     });
     read_damaged(files("tests/malformed/vtu", "vtu"), 6, |bytes| {

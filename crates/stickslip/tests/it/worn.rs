@@ -6,6 +6,7 @@ use stickslip::io::pvd;
 use stickslip::problem::Problem;
 use stickslip::results::{ResultFiles, fields};
 use stickslip::run::Simulation;
+use stickslip_mechanics::mesh::geometry;
 
 /// The example `fretting-wear` over some of its cycles, fifty at a time, after runs that have worn it.
 fn case(cycles: usize, worn: &[String]) -> String {
@@ -49,7 +50,9 @@ fn run(folder: &Path, out: &str, text: &str) -> (Simulation, String) {
 
 fn area(simulation: &Simulation) -> f64 {
     let mesh = &simulation.model.mesh;
-    mesh.cells().map(|cell| mesh.cell_measure(cell)).sum()
+    mesh.cells()
+        .map(|cell| geometry::cell_measure(mesh, cell))
+        .sum()
 }
 
 /// Depths at all points of the mesh; zero where nothing wears.

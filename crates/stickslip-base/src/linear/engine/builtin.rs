@@ -1,6 +1,7 @@
 use std::sync::Arc;
 
 use super::contract::{Analysed, Cut, Engine, EngineReport, FactorEffort, Interior};
+use crate::linear::multifrontal::sweep;
 use crate::linear::{BlockCsr, Fronts, LinearError, Matrix, PartialFactor, Schur, Workspace};
 
 /// The multifrontal factorisation of this library, on the threads of this process: the same bits on any number of them.
@@ -91,7 +92,7 @@ impl Interior for PartialFactor {
         root: &mut [f64],
         columns: usize,
     ) -> Result<(), LinearError> {
-        self.forward(interior, root, columns);
+        sweep::forward(self, interior, root, columns);
         Ok(())
     }
 
@@ -101,7 +102,7 @@ impl Interior for PartialFactor {
         root: &[f64],
         columns: usize,
     ) -> Result<(), LinearError> {
-        self.backward(interior, root, columns);
+        sweep::backward(self, interior, root, columns);
         Ok(())
     }
 

@@ -7,6 +7,7 @@ use super::super::{BlockCsr, LinearError};
 use super::graph::Nodes;
 use super::numeric::{Entry, PartialFactor, Workspace};
 use super::symbolic::Fronts;
+use crate::linear::multifrontal::sweep;
 
 /// Where the entries of a Cholesky factor are, for one pattern and one set of fixed dofs.
 ///
@@ -149,8 +150,8 @@ impl Factor {
         for column in rhs.chunks_exact(dofs.max(1)) {
             x.extend(order.iter().map(|&dof| column[dof as usize]));
         }
-        self.partial.forward(&mut x, &mut [], columns);
-        self.partial.backward(&mut x, &[], columns);
+        sweep::forward(&self.partial, &mut x, &mut [], columns);
+        sweep::backward(&self.partial, &mut x, &[], columns);
         rhs.fill(0.0);
         let solutions = x.chunks_exact(order.len().max(1));
         for (column, x) in rhs.chunks_exact_mut(dofs.max(1)).zip(solutions) {

@@ -19,97 +19,95 @@ const MAGIC: &[u8; 8] = b"mfllt\0\0\x01";
 /// Numbers converted at a time.
 const CHUNK: usize = 8192;
 
-impl PartialFactor {
-    /// Writes the analysis and the factor. No checksum is added.
-    ///
-    /// # Errors
-    /// Those of `out`.
-    pub fn encode(&self, out: &mut dyn Write) -> io::Result<()> {
-        let fronts = &*self.fronts;
-        let mut head = MAGIC.to_vec();
-        let header = Header {
-            shape: fronts.shape,
-            points: (fronts.points.start, fronts.points.end),
-            interior: fronts.interior.len(),
-            root: fronts.root.len(),
-            fronts: fronts.len(),
-            rows: fronts.rows.len(),
-            smallest_pivot: self.smallest_pivot,
-        };
-        header.keep(&mut head);
-        out.write_all(&head)?;
-        let counts = (0..fronts.len()).map(|front| fronts.sizes(front).1 as u32);
-        write_indices(out, fronts.position_of.iter().copied())?;
-        write_indices(out, fronts.tree.first[1..].iter().copied())?;
-        write_indices(out, fronts.tree.parents.iter().copied())?;
-        write_indices(out, counts)?;
-        write_indices(out, fronts.rows.iter().copied())?;
-        let mut bytes = Vec::new();
-        for (piece, panels) in fronts.pieces.iter().zip(&self.panels) {
-            let mut panels = &panels[..];
-            for front in piece.fronts.clone() {
-                let (columns, rows) = fronts.sizes(front);
-                let (panel, rest) = panels.split_at(columns * (columns + rows));
-                panels = rest;
-                for (j, column) in panel.chunks_exact(columns + rows).enumerate() {
-                    bytes.clear();
-                    bytes.extend(column[j..].iter().flat_map(|v| v.to_le_bytes()));
-                    out.write_all(&bytes)?;
-                }
+/// Writes the analysis and the factor. No checksum is added.
+///
+/// # Errors
+/// Those of `out`.
+pub fn write_factor(factor: &PartialFactor, out: &mut dyn Write) -> io::Result<()> {
+    let fronts = &*factor.fronts;
+    let mut head = MAGIC.to_vec();
+    let header = Header {
+        shape: fronts.shape,
+        points: (fronts.points.start, fronts.points.end),
+        interior: fronts.interior.len(),
+        root: fronts.root.len(),
+        fronts: fronts.len(),
+        rows: fronts.rows.len(),
+        smallest_pivot: factor.smallest_pivot,
+    };
+    header.keep(&mut head);
+    out.write_all(&head)?;
+    let counts = (0..fronts.len()).map(|front| fronts.sizes(front).1 as u32);
+    write_indices(out, fronts.position_of.iter().copied())?;
+    write_indices(out, fronts.tree.first[1..].iter().copied())?;
+    write_indices(out, fronts.tree.parents.iter().copied())?;
+    write_indices(out, counts)?;
+    write_indices(out, fronts.rows.iter().copied())?;
+    let mut bytes = Vec::new();
+    for (piece, panels) in fronts.pieces.iter().zip(&factor.panels) {
+        let mut panels = &panels[..];
+        for front in piece.fronts.clone() {
+            let (columns, rows) = fronts.sizes(front);
+            let (panel, rest) = panels.split_at(columns * (columns + rows));
+            panels = rest;
+            for (j, column) in panel.chunks_exact(columns + rows).enumerate() {
+                bytes.clear();
+                bytes.extend(column[j..].iter().flat_map(|v| v.to_le_bytes()));
+                out.write_all(&bytes)?;
             }
         }
-        Ok(())
     }
+    Ok(())
+}
 
-    /// Reads what [`encode`](PartialFactor::encode) wrote. Memory grows with what is read, whatever the counts say.
-    ///
-    /// # Errors
-    /// Those of `input`; [`io::ErrorKind::InvalidData`] for anything that is not a factor. Changed numbers of a
-    /// factor go unnoticed as long as they are finite, its diagonal positive.
-    pub fn decode(input: &mut dyn Read) -> io::Result<PartialFactor> {
-        let mut magic = [0; 8];
-        input.read_exact(&mut magic)?;
-        if &magic != MAGIC {
-            return Err(invalid("not a factor"));
-        }
-        let Header {
-            shape,
-            points: (start, end),
-            interior,
-            root,
-            fronts,
-            rows,
-            smallest_pivot,
-        } = Header::read(input)?;
-        let position_of = read_indices(input, (end - start) * shape.1)?;
-        let first = read_indices(input, fronts)?;
-        let parents = read_indices(input, fronts)?;
-        let row_counts = read_indices(input, fronts)?;
-        let rows = read_indices(input, rows)?;
-        let mut tree = FrontTree::of(parents).ok_or_else(|| invalid("structure"))?;
-        tree.first.extend(first);
-        let fronts = Fronts {
-            shape,
-            points: start..end,
-            interior: vec![NONE; interior],
-            root: vec![NONE; root],
-            position_of,
-            tree,
-            rows,
-            targets: Vec::new(),
-            pieces: Vec::new(),
-        };
-        let fronts = check(fronts, &row_counts).ok_or_else(|| invalid("structure"))?;
-        let mut panels = Vec::with_capacity(fronts.pieces.len());
-        for piece in &fronts.pieces {
-            panels.push(read_panels(input, &fronts, piece.fronts.clone())?);
-        }
-        Ok(PartialFactor {
-            fronts: Arc::new(fronts),
-            panels,
-            smallest_pivot,
-        })
+/// Reads what [`encode`](PartialFactor::encode) wrote. Memory grows with what is read, whatever the counts say.
+///
+/// # Errors
+/// Those of `input`; [`io::ErrorKind::InvalidData`] for anything that is not a factor. Changed numbers of a
+/// factor go unnoticed as long as they are finite, its diagonal positive.
+pub fn read_factor(input: &mut dyn Read) -> io::Result<PartialFactor> {
+    let mut magic = [0; 8];
+    input.read_exact(&mut magic)?;
+    if &magic != MAGIC {
+        return Err(invalid("not a factor"));
     }
+    let Header {
+        shape,
+        points: (start, end),
+        interior,
+        root,
+        fronts,
+        rows,
+        smallest_pivot,
+    } = Header::read(input)?;
+    let position_of = read_indices(input, (end - start) * shape.1)?;
+    let first = read_indices(input, fronts)?;
+    let parents = read_indices(input, fronts)?;
+    let row_counts = read_indices(input, fronts)?;
+    let rows = read_indices(input, rows)?;
+    let mut tree = FrontTree::of(parents).ok_or_else(|| invalid("structure"))?;
+    tree.first.extend(first);
+    let fronts = Fronts {
+        shape,
+        points: start..end,
+        interior: vec![NONE; interior],
+        root: vec![NONE; root],
+        position_of,
+        tree,
+        rows,
+        targets: Vec::new(),
+        pieces: Vec::new(),
+    };
+    let fronts = check(fronts, &row_counts).ok_or_else(|| invalid("structure"))?;
+    let mut panels = Vec::with_capacity(fronts.pieces.len());
+    for piece in &fronts.pieces {
+        panels.push(read_panels(input, &fronts, piece.fronts.clone())?);
+    }
+    Ok(PartialFactor {
+        fronts: Arc::new(fronts),
+        panels,
+        smallest_pivot,
+    })
 }
 
 /// What stands behind the mark of the format.
@@ -273,6 +271,7 @@ mod tests {
     use super::super::Workspace;
     use super::super::tests::{cube, factor};
     use super::*;
+    use crate::linear::multifrontal::sweep;
     use crate::linear::testing::{grid, noise};
 
     #[test]
@@ -280,12 +279,12 @@ mod tests {
         let (a, fixed, kept) = cube(11);
         let (factor, schur) = factor(&a, 0..a.points(), &fixed, &kept).unwrap();
         let mut bytes = Vec::new();
-        factor.encode(&mut bytes).unwrap();
-        let decoded = PartialFactor::decode(&mut &bytes[..]).unwrap();
+        write_factor(&factor, &mut bytes).unwrap();
+        let decoded = read_factor(&mut &bytes[..]).unwrap();
         assert!(decoded.fronts == factor.fronts);
         assert_eq!(decoded.smallest_pivot, factor.smallest_pivot);
         let mut bytes_again = Vec::new();
-        decoded.encode(&mut bytes_again).unwrap();
+        write_factor(&decoded, &mut bytes_again).unwrap();
         assert!(bytes == bytes_again);
         let (again, schur_again) =
             PartialFactor::new(decoded.fronts(), &a, &Workspace::default()).unwrap();
@@ -294,8 +293,8 @@ mod tests {
             let sweep = |factor: &PartialFactor| {
                 let mut x = noise(&mut 1, factor.fronts().interior().len() * columns);
                 let mut w = noise(&mut 2, factor.fronts().root().len() * columns);
-                factor.forward(&mut x, &mut w, columns);
-                factor.backward(&mut x, &w, columns);
+                sweep::forward(factor, &mut x, &mut w, columns);
+                sweep::backward(factor, &mut x, &w, columns);
                 (x, w)
             };
             assert!(sweep(&decoded) == sweep(&factor) && sweep(&again) == sweep(&factor));
@@ -310,25 +309,22 @@ mod tests {
             let kept: Vec<bool> = (0..a.points()).map(|p| p % 7 == 6).collect();
             let (factor, _) = factor(&a, 0..a.points(), &fixed, &kept).unwrap();
             let mut bytes = Vec::new();
-            factor.encode(&mut bytes).unwrap();
+            write_factor(&factor, &mut bytes).unwrap();
             // All of the structure, and some of the numbers.
             let structure = bytes.len() - 8 * factor.fronts().nonzeros();
             let places = (0..structure).chain((structure..bytes.len()).step_by(97));
             for at in places {
-                assert!(
-                    PartialFactor::decode(&mut &bytes[..at]).is_err(),
-                    "cut at {at}"
-                );
+                assert!(read_factor(&mut &bytes[..at]).is_err(), "cut at {at}");
                 for change in [0x01, 0x80, 0xff] {
                     let mut wrong = bytes.clone();
                     wrong[at] ^= change;
                     // Whatever is accepted can be used.
-                    if let Ok(factor) = PartialFactor::decode(&mut &wrong[..]) {
+                    if let Ok(factor) = read_factor(&mut &wrong[..]) {
                         let fronts = Arc::clone(factor.fronts());
                         let mut x = vec![1.0; fronts.interior().len()];
                         let mut w = vec![1.0; fronts.root().len()];
-                        factor.forward(&mut x, &mut w, 1);
-                        factor.backward(&mut x, &w, 1);
+                        sweep::forward(&factor, &mut x, &mut w, 1);
+                        sweep::backward(&factor, &mut x, &w, 1);
                         if fronts.shape == (a.points(), block) {
                             let _ = PartialFactor::new(&fronts, &a, &Workspace::default());
                         }

@@ -16,12 +16,13 @@ mod kernels;
 mod numeric;
 mod schedule;
 mod supernodes;
-mod sweep;
+pub(crate) mod sweep;
 mod symbolic;
 #[cfg(test)]
 mod tests;
 mod tree;
 
 pub use complete::{Factor, Symbolic};
+pub use encode::{read_factor, write_factor};
 pub use numeric::{Numbers, PartialFactor, SINGULAR_ROUNDINGS, Workspace};
 pub use symbolic::Fronts;

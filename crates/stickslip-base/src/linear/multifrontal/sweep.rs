@@ -24,59 +24,57 @@ struct Sweep<'a> {
     parts: Vec<Mutex<&'a mut [f64]>>,
 }
 
-impl PartialFactor {
-    /// `y := L_II⁻¹ f_I` in place of `interior` and `root -= L_CI y`, for several columns one after the other,
-    /// in the order of [`Fronts::interior`] and of [`Fronts::root`].
-    ///
-    /// # Panics
-    /// If `interior` or `root` has the wrong length.
-    pub fn forward(&self, interior: &mut [f64], root: &mut [f64], columns: usize) {
-        let (n, c) = self.check(interior, root, columns);
-        if columns == 1 {
-            return Sweep::new(self, interior, 1).forward(root);
-        }
-        for start in (0..columns).step_by(TOGETHER) {
-            let count = TOGETHER.min(columns - start);
-            let interior = &mut interior[start * n..(start + count) * n];
-            let root = &mut root[start * c..(start + count) * c];
-            let mut x = side_by_side(interior, n, count);
-            let mut w = side_by_side(root, c, count);
-            Sweep::new(self, &mut x, count).forward(&mut w);
-            one_by_one(&x, interior, n, count);
-            one_by_one(&w, root, c, count);
-        }
+/// `y := L_II⁻¹ f_I` in place of `interior` and `root -= L_CI y`, for several columns one after the other,
+/// in the order of [`Fronts::interior`] and of [`Fronts::root`].
+///
+/// # Panics
+/// If `interior` or `root` has the wrong length.
+pub fn forward(factor: &PartialFactor, interior: &mut [f64], root: &mut [f64], columns: usize) {
+    let (n, c) = check(factor, interior, root, columns);
+    if columns == 1 {
+        return Sweep::new(factor, interior, 1).forward(root);
     }
+    for start in (0..columns).step_by(TOGETHER) {
+        let count = TOGETHER.min(columns - start);
+        let interior = &mut interior[start * n..(start + count) * n];
+        let root = &mut root[start * c..(start + count) * c];
+        let mut x = side_by_side(interior, n, count);
+        let mut w = side_by_side(root, c, count);
+        Sweep::new(factor, &mut x, count).forward(&mut w);
+        one_by_one(&x, interior, n, count);
+        one_by_one(&w, root, c, count);
+    }
+}
 
-    /// `u_I := L_II⁻ᵀ (y - L_CIᵀ u_C)` in place of `interior`, which holds `y`; `root` holds `u_C`. Layout as in
-    /// [`forward`](PartialFactor::forward).
-    ///
-    /// # Panics
-    /// If `interior` or `root` has the wrong length.
-    pub fn backward(&self, interior: &mut [f64], root: &[f64], columns: usize) {
-        let (n, c) = self.check(interior, root, columns);
-        if columns == 1 {
-            return Sweep::new(self, interior, 1).backward(root);
-        }
-        for start in (0..columns).step_by(TOGETHER) {
-            let count = TOGETHER.min(columns - start);
-            let interior = &mut interior[start * n..(start + count) * n];
-            let root = &root[start * c..(start + count) * c];
-            let (mut x, w) = (
-                side_by_side(interior, n, count),
-                side_by_side(root, c, count),
-            );
-            Sweep::new(self, &mut x, count).backward(&w);
-            one_by_one(&x, interior, n, count);
-        }
+/// `u_I := L_II⁻ᵀ (y - L_CIᵀ u_C)` in place of `interior`, which holds `y`; `root` holds `u_C`. Layout as in
+/// [`forward`](PartialFactor::forward).
+///
+/// # Panics
+/// If `interior` or `root` has the wrong length.
+pub fn backward(factor: &PartialFactor, interior: &mut [f64], root: &[f64], columns: usize) {
+    let (n, c) = check(factor, interior, root, columns);
+    if columns == 1 {
+        return Sweep::new(factor, interior, 1).backward(root);
     }
+    for start in (0..columns).step_by(TOGETHER) {
+        let count = TOGETHER.min(columns - start);
+        let interior = &mut interior[start * n..(start + count) * n];
+        let root = &root[start * c..(start + count) * c];
+        let (mut x, w) = (
+            side_by_side(interior, n, count),
+            side_by_side(root, c, count),
+        );
+        Sweep::new(factor, &mut x, count).backward(&w);
+        one_by_one(&x, interior, n, count);
+    }
+}
 
-    /// Checks the lengths and returns the numbers of eliminated and of kept dofs.
-    fn check(&self, interior: &[f64], root: &[f64], columns: usize) -> (usize, usize) {
-        let (n, c) = (self.fronts.interior.len(), self.fronts.root.len());
-        assert_eq!(interior.len(), n * columns, "length of the interior");
-        assert_eq!(root.len(), c * columns, "length of the root");
-        (n, c)
-    }
+/// Checks the lengths and returns the numbers of eliminated and of kept dofs.
+fn check(factor: &PartialFactor, interior: &[f64], root: &[f64], columns: usize) -> (usize, usize) {
+    let (n, c) = (factor.fronts.interior.len(), factor.fronts.root.len());
+    assert_eq!(interior.len(), n * columns, "length of the interior");
+    assert_eq!(root.len(), c * columns, "length of the root");
+    (n, c)
 }
 
 /// Columns of `n` numbers, stored row by row.

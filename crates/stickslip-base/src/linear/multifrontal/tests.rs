@@ -4,6 +4,7 @@ use std::sync::Arc;
 use super::super::testing::{dense_of, grid, noise};
 use super::super::{BlockCsr, LinearError, Symbolic};
 use super::{Fronts, PartialFactor, Workspace};
+use crate::linear::multifrontal::sweep;
 
 pub(super) fn factor(
     a: &BlockCsr,
@@ -88,7 +89,7 @@ fn compare(a: &BlockCsr, points: Range<usize>, fixed: &[bool], kept: &[bool]) ->
         let f = noise(&mut 9, n * columns);
         let g = noise(&mut 10, c * columns);
         let (mut x, mut w) = (f.clone(), g.clone());
-        factor.forward(&mut x, &mut w, columns);
+        sweep::forward(&factor, &mut x, &mut w, columns);
         let (mut y, mut z) = (f, g);
         for k in 0..columns {
             let (y, z) = (&mut y[k * n..][..n], &mut z[k * c..][..c]);
@@ -104,7 +105,7 @@ fn compare(a: &BlockCsr, points: Range<usize>, fixed: &[bool], kept: &[bool]) ->
         assert_close(&x, &y, size);
         assert_close(&w, &z, size.max(10.0));
         let u = noise(&mut 11, c * columns);
-        factor.backward(&mut x, &u, columns);
+        sweep::backward(&factor, &mut x, &u, columns);
         for k in 0..columns {
             let (y, u) = (&mut y[k * n..][..n], &u[k * c..][..c]);
             for j in (0..n).rev() {
@@ -231,8 +232,8 @@ fn without_kept_dofs_it_solves() {
     let mut f = vec![0.0; a.rows()];
     a.mul(&u, &mut f);
     let mut x: Vec<f64> = interior.iter().map(|&dof| f[dof as usize]).collect();
-    factor.forward(&mut x, &mut [], 1);
-    factor.backward(&mut x, &[], 1);
+    sweep::forward(&factor, &mut x, &mut [], 1);
+    sweep::backward(&factor, &mut x, &[], 1);
     let expected: Vec<f64> = interior.iter().map(|&dof| u[dof as usize]).collect();
     assert_close(&x, &expected, 1.0);
 }
@@ -285,8 +286,8 @@ fn bits_do_not_depend_on_threads() {
             for columns in [1, 3] {
                 let mut x = noise(&mut 1, fronts.interior().len() * columns);
                 let mut w = noise(&mut 2, fronts.root().len() * columns);
-                factor.forward(&mut x, &mut w, columns);
-                factor.backward(&mut x, &w, columns);
+                sweep::forward(&factor, &mut x, &mut w, columns);
+                sweep::backward(&factor, &mut x, &w, columns);
                 bits.extend(x.iter().chain(&w).map(|v| v.to_bits()));
             }
             bits

@@ -1,6 +1,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Row, Tie};
+use crate::mesh::geometry;
 
 use super::model::{CouplingModel, Ground, pair};
 use crate::error::Diagnostic;
@@ -37,7 +38,7 @@ impl CouplingModel for AxialSpring {
                 let [a, b] = [ends[0], ends[1]];
                 let [from, to] = [ground.place(a), ground.place(b)];
                 let length = distance(from, to);
-                let size = mesh.diameter();
+                let size = geometry::diameter(mesh);
                 if length <= 1e-12 * size {
                     let name = |p: usize| match mesh.point_ids.get(p) {
                         Some(id) => format!("node {id}"),

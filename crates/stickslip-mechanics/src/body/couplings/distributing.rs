@@ -1,6 +1,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Row, Tie};
+use crate::mesh::geometry;
 
 use super::kinematic::the_reference;
 use super::model::{CouplingModel, Ground};
@@ -177,7 +178,7 @@ impl<'a> Mean<'a> {
                 }
             }
         }
-        let least = ON_A_POINT * ground.mesh.diameter().powi(2);
+        let least = ON_A_POINT * geometry::diameter(ground.mesh).powi(2);
         if link.freedom == Freedom::Plane {
             let polar = moments[2][2];
             moments = [[0.0; 3], [0.0; 3], [0.0, 0.0, polar]];

@@ -4,6 +4,7 @@ use super::all::Iterate;
 use super::definition::Act;
 use super::elimination::FIRM;
 use super::{Couplings, CouplingsForce, CouplingsMemory, Row, Tie};
+use crate::body::couplings::fit;
 use crate::math::larger;
 use crate::system::{Assembler, Cause, Force, Stage, StepFailure, Tangent};
 
@@ -67,13 +68,13 @@ impl Force for CouplingsForce<'_> {
         self.couplings.iterate.now.clone_from(multipliers);
         self.couplings.iterate.last.clone_from(multipliers);
         self.iterate.off.fill(0.0);
-        self.fit_alone();
+        fit::fit_alone(self);
     }
 
     fn assemble(&mut self, stage: &Stage, out: &mut Assembler) -> Result<(), StepFailure> {
         let explicit = self.explicit;
         if out.wants_tangent && !explicit {
-            self.fit_beside(&out.blocks);
+            fit::fit_beside(self, &out.blocks);
         }
         let memory = self.memory;
         let Couplings {
@@ -203,102 +204,99 @@ impl Force for CouplingsForce<'_> {
     }
 }
 
-impl Couplings {
-    /// What they know after an attempt that is accepted.
-    pub fn commit(&self, before: &CouplingsMemory, stage: &Stage) -> CouplingsMemory {
-        let (explicit, now) = (self.explicit, &self.iterate.now);
-        let definition = &self.definition;
-        let mut memory = before.clone();
-        let (u, before) = (&stage.at.u, &stage.from.u);
-        let at_rest = stage.rate.is_none() && !explicit;
-        memory.stored = 0.0;
-        memory.work = 0.0;
-        memory.damped = 0.0;
-        for (i, coupling, row) in definition.rows() {
-            let (sum, sum_before) = (row.sum(u), row.sum(before));
-            let act = match (
-                definition.act(i, coupling, memory.start[i], stage.at.t),
-                &coupling.tie,
-            ) {
-                // what is taken away lets go of what it has
-                (Act::Idle, Tie::Dashpot { .. }) => Act::Damped(0.0),
-                (Act::Idle, tie) if !tie.firm() => Act::Sprung(0.0),
-                (act, _) => act,
-            };
-            let target = act.target();
-            let was = memory.targets[i];
-            memory.targets[i] = target;
-            match act {
-                Act::Held(_) => {
-                    let [from, to, shown] = match explicit {
-                        true => {
-                            let exact = self.exact.get(i).copied().unwrap_or_default();
-                            [exact.from, exact.to, exact.shown]
-                        }
-                        false => [memory.forces[i], now[i], now[i]],
-                    };
-                    memory.work -= 0.5 * (from + to) * (target - was);
-                    memory.multipliers[i] = to;
-                    memory.forces[i] = shown;
-                }
-                Act::Pulled(force) => {
-                    memory.work -= 0.5 * (memory.forces[i] + force) * (sum - sum_before);
-                    memory.forces[i] = force;
-                }
-                Act::Damped(coefficient) => {
-                    let force = match stage.rate {
-                        _ if !coupling.schedule.active(stage.at.t) => 0.0,
-                        // The force of the half-step, at which velocities are known there.
-                        None => now[i],
-                        Some(_) => coefficient * rate_of(row, stage, explicit),
-                    };
-                    memory.damped += 0.5 * (memory.forces[i] + force) * (sum - sum_before);
-                    memory.forces[i] = force;
-                }
-                Act::Stopped(clearance) => {
-                    let (held, hold) = (memory.multipliers[i], self.hold[i]);
-                    let rest = memory.rest(i);
-                    let force = match (hold.idle, explicit) {
-                        (true, _) => 0.0,
-                        (false, true) => {
-                            (held + hold.stiffness * (sum + clearance - rest)).min(0.0)
-                        }
-                        (false, false) => now[i],
-                    };
-                    if explicit && !hold.idle && hold.stiffness > 0.0 {
-                        memory.stored += (force * force - held * held) / (2.0 * hold.stiffness);
-                    } else {
-                        memory.multipliers[i] = force;
+/// What they know after an attempt that is accepted.
+pub fn commit(couplings: &Couplings, before: &CouplingsMemory, stage: &Stage) -> CouplingsMemory {
+    let (explicit, now) = (couplings.explicit, &couplings.iterate.now);
+    let definition = &couplings.definition;
+    let mut memory = before.clone();
+    let (u, before) = (&stage.at.u, &stage.from.u);
+    let at_rest = stage.rate.is_none() && !explicit;
+    memory.stored = 0.0;
+    memory.work = 0.0;
+    memory.damped = 0.0;
+    for (i, coupling, row) in definition.rows() {
+        let (sum, sum_before) = (row.sum(u), row.sum(before));
+        let act = match (
+            definition.act(i, coupling, memory.start[i], stage.at.t),
+            &coupling.tie,
+        ) {
+            // what is taken away lets go of what it has
+            (Act::Idle, Tie::Dashpot { .. }) => Act::Damped(0.0),
+            (Act::Idle, tie) if !tie.firm() => Act::Sprung(0.0),
+            (act, _) => act,
+        };
+        let target = act.target();
+        let was = memory.targets[i];
+        memory.targets[i] = target;
+        match act {
+            Act::Held(_) => {
+                let [from, to, shown] = match explicit {
+                    true => {
+                        let exact = couplings.exact.get(i).copied().unwrap_or_default();
+                        [exact.from, exact.to, exact.shown]
                     }
-                    let forces = [memory.forces[i], force];
-                    memory.forces[i] = force;
+                    false => [memory.forces[i], now[i], now[i]],
+                };
+                memory.work -= 0.5 * (from + to) * (target - was);
+                memory.multipliers[i] = to;
+                memory.forces[i] = shown;
+            }
+            Act::Pulled(force) => {
+                memory.work -= 0.5 * (memory.forces[i] + force) * (sum - sum_before);
+                memory.forces[i] = force;
+            }
+            Act::Damped(coefficient) => {
+                let force = match stage.rate {
+                    _ if !coupling.schedule.active(stage.at.t) => 0.0,
+                    // The force of the half-step, at which velocities are known there.
+                    None => now[i],
+                    Some(_) => coefficient * rate_of(row, stage, explicit),
+                };
+                memory.damped += 0.5 * (memory.forces[i] + force) * (sum - sum_before);
+                memory.forces[i] = force;
+            }
+            Act::Stopped(clearance) => {
+                let (held, hold) = (memory.multipliers[i], couplings.hold[i]);
+                let rest = memory.rest(i);
+                let force = match (hold.idle, explicit) {
+                    (true, _) => 0.0,
+                    (false, true) => (held + hold.stiffness * (sum + clearance - rest)).min(0.0),
+                    (false, false) => now[i],
+                };
+                if explicit && !hold.idle && hold.stiffness > 0.0 {
+                    memory.stored += (force * force - held * held) / (2.0 * hold.stiffness);
+                } else {
+                    memory.multipliers[i] = force;
+                }
+                let forces = [memory.forces[i], force];
+                memory.forces[i] = force;
+                let way = Way {
+                    length: sum - sum_before,
+                    stored: 0.0,
+                };
+                memory.work += missed(at_rest, forces, way);
+            }
+            Act::Sprung(_) => {
+                let [x, y] = [sum, sum_before].map(|s| coupling.tie.stretch(s));
+                memory.work += 0.25 * (x * x + y * y) * (target - was);
+                memory.stored += 0.5 * target * x * x;
+                if matches!(coupling.tie, Tie::Gap { .. }) {
+                    let mean = 0.5 * (target + was);
+                    let stored = 0.5 * mean * (x * x - y * y);
                     let way = Way {
                         length: sum - sum_before,
-                        stored: 0.0,
+                        stored,
                     };
-                    memory.work += missed(at_rest, forces, way);
+                    memory.work += missed(at_rest, [mean * y, mean * x], way);
                 }
-                Act::Sprung(_) => {
-                    let [x, y] = [sum, sum_before].map(|s| coupling.tie.stretch(s));
-                    memory.work += 0.25 * (x * x + y * y) * (target - was);
-                    memory.stored += 0.5 * target * x * x;
-                    if matches!(coupling.tie, Tie::Gap { .. }) {
-                        let mean = 0.5 * (target + was);
-                        let stored = 0.5 * mean * (x * x - y * y);
-                        let way = Way {
-                            length: sum - sum_before,
-                            stored,
-                        };
-                        memory.work += missed(at_rest, [mean * y, mean * x], way);
-                    }
-                    memory.forces[i] = target * x;
-                }
-                Act::Idle => {}
+                memory.forces[i] = target * x;
             }
+            Act::Idle => {}
         }
-        memory
     }
+    memory
 }
+
 /// What the sum of a row changes at per time: as the scheme of the increment has it, or as it is known. Nothing where inertia plays no part.
 fn rate_of(row: &Row, stage: &Stage, explicit: bool) -> f64 {
     let Some(rate) = &stage.rate else {

@@ -5,7 +5,7 @@ use super::row::Row;
 use crate::body::Space;
 use crate::error::Diagnostic;
 use crate::math::Vec3;
-use crate::mesh::{FacetRef, Mesh};
+use crate::mesh::{FacetRef, Mesh, select};
 use crate::system::{Component, Dofs, Link, Links};
 
 /// The points that couplings tie together: those of the mesh, and behind them the reference points.
@@ -45,7 +45,7 @@ impl Ground<'_> {
     pub fn facets(&self, set: &str, points: &[usize]) -> Vec<FacetRef> {
         match self.mesh.facet_sets.get(set) {
             Some(facets) if !facets.is_empty() => facets.clone(),
-            _ => self.mesh.boundary_within(points),
+            _ => select::boundary_within(self.mesh, points),
         }
     }
 

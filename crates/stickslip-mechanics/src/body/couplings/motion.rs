@@ -115,120 +115,118 @@ impl Held {
     }
 }
 
-impl Couplings {
-    /// The equations that act at `t`, but for those with points that are `massless`; those whose dofs are `bare` have none to be moved by.
-    fn held(&self, t: f64, links: &Links, massless: &[bool], bare: &[bool]) -> Held {
-        let mut held = Held {
-            rows: Vec::new(),
-            bare: Vec::new(),
-            dofs: Vec::new(),
+/// The equations that act at `t`, but for those with points that are `massless`; those whose dofs are `bare` have none to be moved by.
+fn held(couplings: &Couplings, t: f64, links: &Links, massless: &[bool], bare: &[bool]) -> Held {
+    let mut held = Held {
+        rows: Vec::new(),
+        bare: Vec::new(),
+        dofs: Vec::new(),
+    };
+    for (i, coupling, row) in couplings.rows() {
+        let terms = match couplings.definition.act(i, coupling, 0.0, t) {
+            Act::Held(_) => links.moved(row.terms()),
+            _ => continue,
         };
-        for (i, coupling, row) in self.rows() {
-            let terms = match self.definition.act(i, coupling, 0.0, t) {
-                Act::Held(_) => links.moved(row.terms()),
-                _ => continue,
-            };
-            if terms.iter().all(|(dof, _)| !massless[*dof]) {
-                let (apart, terms): (Vec<_>, Vec<_>) =
-                    terms.into_iter().partition(|(dof, _)| bare[*dof]);
-                held.rows.push((i, terms));
-                held.bare.push(apart);
-            }
-        }
-        let all = held.bare.iter().flatten().map(|(dof, _)| *dof);
-        let all: std::collections::BTreeSet<usize> = all.collect();
-        held.dofs = all.into_iter().collect();
-        for (dof, _) in held.bare.iter_mut().flatten() {
-            *dof = held.dofs.partition_point(|d| d < dof);
-        }
-        held
-    }
-
-    /// Lets dofs without inertia go on as the others in the equations at `t` do: `x` are velocities or accelerations. They have no inertia of their own by
-    /// which they could go on otherwise, and would swing about these for ever.
-    pub fn follow(&self, t: f64, links: &Links, bare: &[bool], x: &mut [f64]) {
-        if !bare.contains(&true) {
-            return;
-        }
-        let held = self.held(t, links, &vec![false; x.len()], bare);
-        for (dof, value) in held.dofs.iter().zip(held.following(x)) {
-            x[*dof] = value;
+        if terms.iter().all(|(dof, _)| !massless[*dof]) {
+            let (apart, terms): (Vec<_>, Vec<_>) =
+                terms.into_iter().partition(|(dof, _)| bare[*dof]);
+            held.rows.push((i, terms));
+            held.bare.push(apart);
         }
     }
+    let all = held.bare.iter().flatten().map(|(dof, _)| *dof);
+    let all: std::collections::BTreeSet<usize> = all.collect();
+    held.dofs = all.into_iter().collect();
+    for (dof, _) in held.bare.iter_mut().flatten() {
+        *dof = held.dofs.partition_point(|d| d < dof);
+    }
+    held
+}
 
-    /// Finds the multipliers with which accelerations `a` satisfy the equations that act at `t`, and adds their forces to the internal ones in `out` and what
-    /// they do to `a`. Without that the trapezoidal rule would swing about them for ever. What the `force` on dofs without inertia, which are `bare`, is out of
-    /// balance by the equations carry.
-    ///
-    /// `accelerate` gives the accelerations that forces make, by dof. Rows with points that are massless are left as they are.
-    ///
-    /// # Errors
-    /// Those of `accelerate`.
-    pub fn start_motion(
-        &self,
-        memory: &mut CouplingsMemory,
-        start: &MotionStart,
-        accelerate: Accelerate<'_>,
-        a: &mut [f64],
-        out: &mut [f64],
-    ) -> Result<(), StepFailure> {
-        let held = self.held(start.t, start.links, start.massless, start.bare);
-        let count = a.len();
-        let carried: Vec<f64> = held.dofs.iter().map(|d| start.force[*d]).collect();
-        let mut multipliers = vec![0.0; held.rows.len()];
-        let mut apply = |a: &mut [f64], m: &[f64]| -> Result<(), StepFailure> {
-            let change = accelerate(&held.spread(m, count))?;
-            a.iter_mut().zip(change).for_each(|(a, c)| *a -= c);
-            Ok(())
-        };
-        if carried.iter().any(|f| *f != 0.0) {
-            multipliers = held.along_bare(&held.least_squares(&carried));
-            apply(a, &multipliers)?;
-        }
-        let mut off = held.sums(a);
-        held.release(&mut off);
-        if off.iter().any(|x| *x != 0.0) {
-            let mut failure = None;
-            let mut more = vec![0.0; held.rows.len()];
-            gmres(
-                &mut |m, result| {
-                    result.fill(0.0);
-                    let mut a = vec![0.0; count];
-                    match apply(&mut a, m) {
-                        Ok(()) => {
-                            let sums = held.sums(&a);
-                            result.iter_mut().zip(sums).for_each(|(r, s)| *r = -s);
-                            held.release(result);
-                        }
-                        Err(e) => failure = Some(e),
-                    }
-                },
-                &mut |_| {},
-                &off,
-                &mut more,
-                GmresSettings {
-                    tolerance: EXACT,
-                    max_iterations: held.rows.len().clamp(10, 400),
-                    restart: 60,
-                },
-            );
-            if let Some(failure) = failure {
-                return Err(failure);
-            }
-            held.release(&mut more);
-            apply(a, &more)?;
-            multipliers.iter_mut().zip(more).for_each(|(m, x)| *m += x);
-        }
-        for (dof, value) in held.dofs.iter().zip(held.following(a)) {
-            a[*dof] = value;
-        }
-        for (out, f) in out.iter_mut().zip(held.spread(&multipliers, count)) {
-            *out += f;
-        }
-        for ((i, _), m) in held.rows.iter().zip(&multipliers) {
-            memory.multipliers[*i] += m;
-            memory.forces[*i] = memory.multipliers[*i];
-        }
+/// Lets dofs without inertia go on as the others in the equations at `t` do: `x` are velocities or accelerations. They have no inertia of their own by
+/// which they could go on otherwise, and would swing about these for ever.
+pub fn follow(couplings: &Couplings, t: f64, links: &Links, bare: &[bool], x: &mut [f64]) {
+    if !bare.contains(&true) {
+        return;
+    }
+    let held = held(couplings, t, links, &vec![false; x.len()], bare);
+    for (dof, value) in held.dofs.iter().zip(held.following(x)) {
+        x[*dof] = value;
+    }
+}
+
+/// Finds the multipliers with which accelerations `a` satisfy the equations that act at `t`, and adds their forces to the internal ones in `out` and what
+/// they do to `a`. Without that the trapezoidal rule would swing about them for ever. What the `force` on dofs without inertia, which are `bare`, is out of
+/// balance by the equations carry.
+///
+/// `accelerate` gives the accelerations that forces make, by dof. Rows with points that are massless are left as they are.
+///
+/// # Errors
+/// Those of `accelerate`.
+pub fn start_motion(
+    couplings: &Couplings,
+    memory: &mut CouplingsMemory,
+    start: &MotionStart,
+    accelerate: Accelerate<'_>,
+    a: &mut [f64],
+    out: &mut [f64],
+) -> Result<(), StepFailure> {
+    let held = held(couplings, start.t, start.links, start.massless, start.bare);
+    let count = a.len();
+    let carried: Vec<f64> = held.dofs.iter().map(|d| start.force[*d]).collect();
+    let mut multipliers = vec![0.0; held.rows.len()];
+    let mut apply = |a: &mut [f64], m: &[f64]| -> Result<(), StepFailure> {
+        let change = accelerate(&held.spread(m, count))?;
+        a.iter_mut().zip(change).for_each(|(a, c)| *a -= c);
         Ok(())
+    };
+    if carried.iter().any(|f| *f != 0.0) {
+        multipliers = held.along_bare(&held.least_squares(&carried));
+        apply(a, &multipliers)?;
     }
+    let mut off = held.sums(a);
+    held.release(&mut off);
+    if off.iter().any(|x| *x != 0.0) {
+        let mut failure = None;
+        let mut more = vec![0.0; held.rows.len()];
+        gmres(
+            &mut |m, result| {
+                result.fill(0.0);
+                let mut a = vec![0.0; count];
+                match apply(&mut a, m) {
+                    Ok(()) => {
+                        let sums = held.sums(&a);
+                        result.iter_mut().zip(sums).for_each(|(r, s)| *r = -s);
+                        held.release(result);
+                    }
+                    Err(e) => failure = Some(e),
+                }
+            },
+            &mut |_| {},
+            &off,
+            &mut more,
+            GmresSettings {
+                tolerance: EXACT,
+                max_iterations: held.rows.len().clamp(10, 400),
+                restart: 60,
+            },
+        );
+        if let Some(failure) = failure {
+            return Err(failure);
+        }
+        held.release(&mut more);
+        apply(a, &more)?;
+        multipliers.iter_mut().zip(more).for_each(|(m, x)| *m += x);
+    }
+    for (dof, value) in held.dofs.iter().zip(held.following(a)) {
+        a[*dof] = value;
+    }
+    for (out, f) in out.iter_mut().zip(held.spread(&multipliers, count)) {
+        *out += f;
+    }
+    for ((i, _), m) in held.rows.iter().zip(&multipliers) {
+        memory.multipliers[*i] += m;
+        memory.forces[*i] = memory.multipliers[*i];
+    }
+    Ok(())
 }

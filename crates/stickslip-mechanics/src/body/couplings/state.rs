@@ -10,25 +10,23 @@ pub struct CouplingsState {
     explicit: bool,
 }
 
-impl Couplings {
-    /// All that they know beyond their definition and what accepted increments have left.
-    pub fn state(&self) -> CouplingsState {
-        CouplingsState {
-            hold: self.hold.clone(),
-            iterate: self.iterate.clone(),
-            explicit: self.explicit,
-        }
+/// All that they know beyond their definition and what accepted increments have left.
+pub fn state(couplings: &Couplings) -> CouplingsState {
+    CouplingsState {
+        hold: couplings.hold.clone(),
+        iterate: couplings.iterate.clone(),
+        explicit: couplings.explicit,
     }
+}
 
-    /// Goes on with that.
-    pub fn go_on_from(&mut self, state: CouplingsState) {
-        let CouplingsState {
-            hold,
-            iterate,
-            explicit,
-        } = state;
-        self.hold = hold;
-        self.iterate = iterate;
-        self.explicit = explicit;
-    }
+/// Goes on with that.
+pub fn go_on_from(couplings: &mut Couplings, state: CouplingsState) {
+    let CouplingsState {
+        hold,
+        iterate,
+        explicit,
+    } = state;
+    couplings.hold = hold;
+    couplings.iterate = iterate;
+    couplings.explicit = explicit;
 }

@@ -1,6 +1,6 @@
 //! Bodies of which some turn cell by cell.
 
-use crate::body::Elastic;
+use crate::body::{Elastic, recover};
 use crate::linear::BlockCsr;
 use crate::math::vector::{dot, weighted_mean};
 use crate::system::{BodyModel, Deformed, NonlinearBody};
@@ -24,7 +24,10 @@ impl BodyModel for BodiesByCell {
     fn energy(&self, at: Deformed) -> f64 {
         let mut linear = vec![0.0; at.u.len()];
         self.linear.mul(at.u, &mut linear);
-        let turning = self.turning.iter().map(|body| body.strain_energy(at.u));
+        let turning = self
+            .turning
+            .iter()
+            .map(|body| recover::strain_energy(body, at.u));
         0.5 * dot(at.u, &linear) + turning.sum::<f64>()
     }
 
@@ -41,7 +44,7 @@ impl NonlinearBody for BodiesByCell {
     fn write_forces(&self, u: &[f64], out: &mut [f64]) {
         self.linear.mul(u, out);
         let turning = self.turning.iter();
-        turning.for_each(|body| body.internal_force(u, out));
+        turning.for_each(|body| recover::internal_force(body, u, out));
     }
 
     fn tangents(&self, u: &[f64]) -> [BlockCsr; 2] {

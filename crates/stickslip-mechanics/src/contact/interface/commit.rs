@@ -258,7 +258,7 @@ fn take_over(
     }
     let creep = match increment.creeps && r.status == Status::Stick {
         // Not what the spring gives.
-        true if input.state.springs => e.path(true) / increment.dt,
+        true if input.state.springs => evaluated_path(e, true) / increment.dt,
         true => norm(e.moved) / increment.dt,
         false => 0.0,
     };
@@ -498,9 +498,12 @@ fn push(definition: &InterfaceDefinition, next: &mut History, stage: &Stage) {
     next.energy.work += dot(mean[0], shift) + dot(mean[1], turn);
 }
 
-impl Evaluation {
-    /// Length of the way that the point slid over the increment; a sticking point slides nowhere, a frictionless one all the way it moves.
-    pub(super) fn path(&self, frictional: bool) -> f64 {
-        path(&self.response, frictional, self.frames.before, self.moved)
-    }
+/// Length of the way that the point slid over the increment; a sticking point slides nowhere, a frictionless one all the way it moves.
+pub(super) fn evaluated_path(evaluation: &Evaluation, frictional: bool) -> f64 {
+    path(
+        &evaluation.response,
+        frictional,
+        evaluation.frames.before,
+        evaluation.moved,
+    )
 }

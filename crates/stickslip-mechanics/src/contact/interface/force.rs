@@ -146,15 +146,15 @@ impl Force for InterfaceForce<'_> {
     }
 
     fn tally(&self) -> Option<Tally> {
-        Some(self.tried().tally())
+        Some(tried(self).tally())
     }
 
     fn diagnose(&self) -> Vec<Culprit> {
-        culprits(self.tried())
+        culprits(tried(self))
     }
 
     fn place(&self, point: usize) -> Option<Culprit> {
-        (point < self.points.len()).then(|| culprit(self.tried(), point))
+        (point < self.points.len()).then(|| culprit(tried(self), point))
     }
 
     fn active_set(&mut self) -> Option<&mut dyn ActiveSet> {
@@ -162,14 +162,12 @@ impl Force for InterfaceForce<'_> {
     }
 }
 
-impl InterfaceForce<'_> {
-    /// What it did in the present attempt.
-    fn tried(&self) -> LastAttempt<'_> {
-        LastAttempt {
-            interface: self.definition,
-            attempt: self.attempt,
-            cache: self.cache,
-        }
+/// What it did in the present attempt.
+fn tried<'a>(force: &'a InterfaceForce) -> LastAttempt<'a> {
+    LastAttempt {
+        interface: force.definition,
+        attempt: force.attempt,
+        cache: force.cache,
     }
 }
 

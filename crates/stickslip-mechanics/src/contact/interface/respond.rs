@@ -10,7 +10,7 @@ use super::wear::{length, wear_compliance, wear_gap, wearing};
 use crate::contact::enforcement::Multipliers;
 use crate::contact::kinematics::{Moving, Stencil, carried_over, rate_slip};
 use crate::contact::law::friction::FrictionPoint;
-use crate::contact::response::{Kept, LawInput, Sliding, Status, Stiffnesses, Worn};
+use crate::contact::response::{Kept, LawInput, Sliding, Status, Stiffnesses, Worn, respond};
 use crate::math::{Vec3, add_scaled, dot, norm, scale};
 
 /// By how much the first trial traction of an attempt may exceed the limit and count as stick.
@@ -69,7 +69,7 @@ pub(super) fn respond(met: Met, scene: &Scene, batch: &mut Batch) -> Evaluation 
     let stencil = &batch.stencil;
     if scene.query != LawQuery::Nothing {
         let friction = match scene.query {
-            LawQuery::Friction => interface.laws.question(stencil, &at),
+            LawQuery::Friction => respond::question(&interface.laws, stencil, &at),
             _ => Some(FrictionPoint::default()),
         };
         batch.questions.extend(friction.map(|friction| Question {

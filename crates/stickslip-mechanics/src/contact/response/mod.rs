@@ -3,7 +3,7 @@
 mod input;
 mod laws;
 mod outcome;
-mod respond;
+pub(crate) mod respond;
 mod shear;
 
 pub use input::{Answers, Kept, LawInput, Sliding, Stiffnesses, Worn};

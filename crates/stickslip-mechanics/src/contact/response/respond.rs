@@ -8,6 +8,7 @@ use crate::contact::kinematics::Stencil;
 use crate::contact::law::friction::FrictionPoint;
 use crate::contact::law::normal::NormalLaw;
 use crate::contact::law::slip::Tangential;
+use crate::contact::response::shear;
 use crate::math::Slope;
 
 /// Gap and slip tied to zero, in tension too.
@@ -106,120 +107,122 @@ fn yielding(law: impl Fn(f64) -> Slope, gap: f64, worn: f64) -> Slope {
     }
 }
 
-impl Laws {
-    /// Evaluates the laws at a stencil.
-    ///
-    /// Where multipliers are unknowns the traction returned is what the multipliers `Σ` have to equal,
-    /// `Σ = P(Σ - r C)`: `P` cuts off tension and shear beyond the limit, `C_n = g + (Σ_n - λ_n)/ω` (with λ = 0 the paper's
-    /// `G - Σ/ω`, whose `Σ_n` is negative in compression) and `C_t = s + (Σ_t - λ_t)/ω`. In contact and stick this is `C = 0` whatever the weight `r`;
-    /// a weight of the order of the bodies' stiffness makes status change when multiplier and gap together say so, where `ω` would
-    /// send points from slip in one direction to slip in the other.
-    pub fn respond(&self, stencil: &Stencil, at: &LawInput) -> Response {
-        let unknown = at.kept.unknown;
-        if self.tied {
-            return tie(stencil, at);
-        }
-        let mut response = self.press(stencil.gap + at.worn.base - at.rest, at, unknown);
-        let pressure = response.traction[0];
-        let friction = self.friction_law();
-        let pressed = pressure > 0.0 || at.pressed;
-        if pressed {
-            response.status = if friction.frictional() {
-                Status::Stick
-            } else {
-                Status::Slip
-            };
-        } else if at.stiffness.first_contact > 0.0 {
-            let sides = if friction.frictional() { 3 } else { 1 };
-            for i in 0..sides {
-                response.d_gap[i][i] = -at.stiffness.first_contact;
-            }
-        }
-        if !friction.frictional() || !pressed {
-            return response;
-        }
-        self.shear(stencil, at, &mut response);
-        response
+/// Evaluates the laws at a stencil.
+///
+/// Where multipliers are unknowns the traction returned is what the multipliers `Σ` have to equal,
+/// `Σ = P(Σ - r C)`: `P` cuts off tension and shear beyond the limit, `C_n = g + (Σ_n - λ_n)/ω` (with λ = 0 the paper's
+/// `G - Σ/ω`, whose `Σ_n` is negative in compression) and `C_t = s + (Σ_t - λ_t)/ω`. In contact and stick this is `C = 0` whatever the weight `r`;
+/// a weight of the order of the bodies' stiffness makes status change when multiplier and gap together say so, where `ω` would
+/// send points from slip in one direction to slip in the other.
+pub fn respond(laws: &Laws, stencil: &Stencil, at: &LawInput) -> Response {
+    let unknown = at.kept.unknown;
+    if laws.tied {
+        return tie(stencil, at);
     }
-
-    /// The normal part: pressure and its derivatives.
-    fn press(&self, gap: f64, at: &LawInput, unknown: bool) -> Response {
-        let normal = self.normal_law();
-        let set_valued = || at.answers.pressure.is_none() && normal.pressure(gap).is_none();
-        let mut response = Response::default();
-        if unknown && set_valued() {
-            let keep = 1.0 - at.stiffness.weight / at.stiffness.normal;
-            let p = keep * at.kept.multiplier[0] + (1.0 - keep) * at.kept.centre[0]
-                - at.stiffness.weight * gap;
-            if p > 0.0 || at.pressed {
-                let part = 1.0 / (1.0 + at.stiffness.weight * at.worn.slope);
-                response.traction[0] = part * p;
-                response.d_gap[0][0] = -part * at.stiffness.weight;
-                response.d_multiplier[0][0] = part * keep;
-            }
-            return response;
-        }
-        if at.pressed && set_valued() {
-            response.traction[0] = -at.stiffness.normal * gap;
-            response.d_gap[0][0] = -at.stiffness.normal;
-            return response;
-        }
-        let p = match at.answers.pressure {
-            // It was asked once, at the gap before anything is worn off.
-            Some(p) => in_series(p, at.worn.slope),
-            None => yielding(
-                |gap| pressure(normal, gap, at.stiffness.normal),
-                gap,
-                at.worn.slope,
-            ),
+    let mut response = press(laws, stencil.gap + at.worn.base - at.rest, at, unknown);
+    let pressure = response.traction[0];
+    let friction = laws.friction_law();
+    let pressed = pressure > 0.0 || at.pressed;
+    if pressed {
+        response.status = if friction.frictional() {
+            Status::Stick
+        } else {
+            Status::Slip
         };
-        let loose = -p.slope < HARDLY * at.stiffness.weight;
-        let p = match at.pressed && loose {
-            true => under_load(normal, gap, at.stiffness.weight),
-            false => p,
-        };
-        response.traction[0] = p.value;
-        response.d_gap[0][0] = p.slope;
-        self.damp(at, &mut response);
-        response
+    } else if at.stiffness.first_contact > 0.0 {
+        let sides = if friction.frictional() { 3 } else { 1 };
+        for i in 0..sides {
+            response.d_gap[i][i] = -at.stiffness.first_contact;
+        }
     }
+    if !friction.frictional() || !pressed {
+        return response;
+    }
+    shear::shear(laws, stencil, at, &mut response);
+    response
+}
 
-    /// Adds what damping does to a pressure that follows from the gap. Surfaces do not pull: what would is cut off.
-    fn damp(&self, at: &LawInput, response: &mut Response) {
-        let damping = self.damping.as_dyn();
-        let elastic = response.traction[0];
-        if !damping.active() || elastic <= 0.0 {
-            return;
+/// The normal part: pressure and its derivatives.
+fn press(laws: &Laws, gap: f64, at: &LawInput, unknown: bool) -> Response {
+    let normal = laws.normal_law();
+    let set_valued = || at.answers.pressure.is_none() && normal.pressure(gap).is_none();
+    let mut response = Response::default();
+    if unknown && set_valued() {
+        let keep = 1.0 - at.stiffness.weight / at.stiffness.normal;
+        let p = keep * at.kept.multiplier[0] + (1.0 - keep) * at.kept.centre[0]
+            - at.stiffness.weight * gap;
+        if p > 0.0 || at.pressed {
+            let part = 1.0 / (1.0 + at.stiffness.weight * at.worn.slope);
+            response.traction[0] = part * p;
+            response.d_gap[0][0] = -part * at.stiffness.weight;
+            response.d_multiplier[0][0] = part * keep;
         }
-        let extra = damping.extra(elastic, at.closing);
-        if elastic + extra.value <= 0.0 {
-            response.damping = -elastic;
-            response.traction[0] = 0.0;
-            response.d_gap[0][0] = 0.0;
-            return;
-        }
-        response.damping = extra.value;
-        response.traction[0] += extra.value;
-        // the closing velocity falls with the gap
-        response.d_rate[0] = -extra.d_rate / at.dt;
-        response.d_gap[0][0] = response.d_gap[0][0] * (1.0 + extra.d_pressure) + response.d_rate[0];
+        return response;
     }
+    if at.pressed && set_valued() {
+        response.traction[0] = -at.stiffness.normal * gap;
+        response.d_gap[0][0] = -at.stiffness.normal;
+        return response;
+    }
+    let p = match at.answers.pressure {
+        // It was asked once, at the gap before anything is worn off.
+        Some(p) => in_series(p, at.worn.slope),
+        None => yielding(
+            |gap| pressure(normal, gap, at.stiffness.normal),
+            gap,
+            at.worn.slope,
+        ),
+    };
+    let loose = -p.slope < HARDLY * at.stiffness.weight;
+    let p = match at.pressed && loose {
+        true => under_load(normal, gap, at.stiffness.weight),
+        false => p,
+    };
+    response.traction[0] = p.value;
+    response.d_gap[0][0] = p.slope;
+    damp(laws, at, &mut response);
+    response
+}
 
-    /// What a friction law is asked at a stencil, if it is; `at` tells the pressure where the normal law is the program's own.
-    pub fn question(&self, stencil: &Stencil, at: &LawInput) -> Option<FrictionPoint> {
-        if self.tied || !self.friction_law().frictional() {
-            return None;
-        }
-        let pressure = self
-            .press(stencil.gap + at.worn.base - at.rest, at, at.kept.unknown)
-            .traction[0];
-        let motion = Tangential {
-            skew: stencil.skew,
-            ..Tangential::default()
-        };
-        let path = motion.length(at.slip.seen);
-        (pressure > 0.0 || at.pressed).then(|| Self::friction_point(stencil, at, pressure, path))
+/// Adds what damping does to a pressure that follows from the gap. Surfaces do not pull: what would is cut off.
+fn damp(laws: &Laws, at: &LawInput, response: &mut Response) {
+    let damping = laws.damping.as_dyn();
+    let elastic = response.traction[0];
+    if !damping.active() || elastic <= 0.0 {
+        return;
     }
+    let extra = damping.extra(elastic, at.closing);
+    if elastic + extra.value <= 0.0 {
+        response.damping = -elastic;
+        response.traction[0] = 0.0;
+        response.d_gap[0][0] = 0.0;
+        return;
+    }
+    response.damping = extra.value;
+    response.traction[0] += extra.value;
+    // the closing velocity falls with the gap
+    response.d_rate[0] = -extra.d_rate / at.dt;
+    response.d_gap[0][0] = response.d_gap[0][0] * (1.0 + extra.d_pressure) + response.d_rate[0];
+}
+
+/// What a friction law is asked at a stencil, if it is; `at` tells the pressure where the normal law is the program's own.
+pub fn question(laws: &Laws, stencil: &Stencil, at: &LawInput) -> Option<FrictionPoint> {
+    if laws.tied || !laws.friction_law().frictional() {
+        return None;
+    }
+    let pressure = press(
+        laws,
+        stencil.gap + at.worn.base - at.rest,
+        at,
+        at.kept.unknown,
+    )
+    .traction[0];
+    let motion = Tangential {
+        skew: stencil.skew,
+        ..Tangential::default()
+    };
+    let path = motion.length(at.slip.seen);
+    (pressure > 0.0 || at.pressed).then(|| shear::friction_point(stencil, at, pressure, path))
 }
 
 #[cfg(test)]

@@ -73,102 +73,99 @@ fn lengthens(shear: &SlipState, motion: &Tangential, d_limit: f64, spring: bool)
     ]
 }
 
-impl Laws {
-    /// What a friction law is asked, of a point that has come this way.
-    pub(super) fn friction_point(
-        stencil: &Stencil,
-        at: &LawInput,
-        pressure: f64,
-        path: f64,
-    ) -> FrictionPoint {
-        FrictionPoint {
-            pressure: pressure.max(0.0),
-            penetration: (-stencil.gap - at.worn.depth(pressure)).max(0.0),
-            speed: path / at.dt,
-            sticking: at.sticking,
-            dt: at.dt,
-            state: at.state,
-        }
+/// What a friction law is asked, of a point that has come this way.
+pub(super) fn friction_point(
+    stencil: &Stencil,
+    at: &LawInput,
+    pressure: f64,
+    path: f64,
+) -> FrictionPoint {
+    FrictionPoint {
+        pressure: pressure.max(0.0),
+        penetration: (-stencil.gap - at.worn.depth(pressure)).max(0.0),
+        speed: path / at.dt,
+        sticking: at.sticking,
+        dt: at.dt,
+        state: at.state,
     }
+}
 
-    /// The largest shear that may be carried.
-    fn limit(&self, stencil: &Stencil, at: &LawInput, pressure: f64, path: f64) -> Limit {
-        let asked = || {
-            let point = Self::friction_point(stencil, at, pressure, path);
-            self.friction_law().limit(&point)
-        };
-        let mut limit = at.answers.limit.unwrap_or_else(asked);
-        if pressure < 0.0 {
-            limit.d_pressure = 0.0;
-        }
-        limit
+/// The largest shear that may be carried.
+fn limit(laws: &Laws, stencil: &Stencil, at: &LawInput, pressure: f64, path: f64) -> Limit {
+    let asked = || {
+        let point = friction_point(stencil, at, pressure, path);
+        laws.friction_law().limit(&point)
+    };
+    let mut limit = at.answers.limit.unwrap_or_else(asked);
+    if pressure < 0.0 {
+        limit.d_pressure = 0.0;
     }
+    limit
+}
 
-    /// The tangential part, added to a response with pressure.
-    pub(super) fn shear(&self, stencil: &Stencil, at: &LawInput, response: &mut Response) {
-        let keep = kept(at);
-        let motion = tangential(stencil, at, keep);
-        let path = motion.length(motion.slip);
-        let limit = self.limit(stencil, at, response.traction[0], path);
-        let rule: &dyn SlipRule = self.slip.as_dyn();
-        let shear = match (at.pressed, at.slip.sprung) {
-            (true, _) => rule.stuck(limit.value, &motion),
-            _ if at.slip.steady && rule.sticks() => sliding(limit.value, &motion),
-            (false, true) => rule.sprung(limit.value, &motion),
-            (false, false) => rule.traction(limit.value, &motion),
+/// The tangential part, added to a response with pressure.
+pub(super) fn shear(laws: &Laws, stencil: &Stencil, at: &LawInput, response: &mut Response) {
+    let keep = kept(at);
+    let motion = tangential(stencil, at, keep);
+    let path = motion.length(motion.slip);
+    let limit = limit(laws, stencil, at, response.traction[0], path);
+    let rule: &dyn SlipRule = laws.slip.as_dyn();
+    let shear = match (at.pressed, at.slip.sprung) {
+        (true, _) => rule.stuck(limit.value, &motion),
+        _ if at.slip.steady && rule.sticks() => sliding(limit.value, &motion),
+        (false, true) => rule.sprung(limit.value, &motion),
+        (false, false) => rule.traction(limit.value, &motion),
+    };
+    response.limit = limit.value;
+    response.state = limit.state;
+    response.sliding_path = at.slip.path.unwrap_or(shear.sliding_path);
+    if shear.sliding {
+        response.status = Status::Slip;
+    }
+    // penetration = -gap where closed
+    let d_penetration = if stencil.gap + at.worn.depth(response.traction[0]) < 0.0 {
+        limit.d_penetration * (1.0 + at.worn.slope * response.d_gap[0][0])
+    } else {
+        0.0
+    };
+    let d_limit_gap = limit.d_pressure * response.d_gap[0][0] - d_penetration;
+    response.d_limit = match response.d_gap[0][0] {
+        0.0 => limit.d_pressure,
+        slope => d_limit_gap / slope,
+    };
+    let toward = if path > 0.0 && limit.d_speed != 0.0 {
+        motion.length_slope(motion.slip, path)
+    } else {
+        [0.0; 2]
+    };
+    response.d_path = match at.slip.path {
+        None => lengthens(
+            &shear,
+            &motion,
+            response.d_limit,
+            rule.sticks() || at.slip.sprung,
+        ),
+        Some(_) => [0.0; 3],
+    };
+    for i in 0..2 {
+        let d_limit = shear.d_limit[i];
+        response.traction[i + 1] = shear.traction[i];
+        response.d_gap[i + 1][0] = d_limit * d_limit_gap;
+        response.d_skew[i + 1] = shear.d_skew[i];
+        response.d_multiplier[i + 1][0] = d_limit * limit.d_pressure * response.d_multiplier[0][0];
+        // slip over the increment is the speed that the limit depends on, and that of a rule without a spring
+        let own = match rule.sticks() || at.slip.sprung {
+            true => 0.0,
+            false => shear.d_slip[i][i],
         };
-        response.limit = limit.value;
-        response.state = limit.state;
-        response.sliding_path = at.slip.path.unwrap_or(shear.sliding_path);
-        if shear.sliding {
-            response.status = Status::Slip;
-        }
-        // penetration = -gap where closed
-        let d_penetration = if stencil.gap + at.worn.depth(response.traction[0]) < 0.0 {
-            limit.d_penetration * (1.0 + at.worn.slope * response.d_gap[0][0])
-        } else {
-            0.0
-        };
-        let d_limit_gap = limit.d_pressure * response.d_gap[0][0] - d_penetration;
-        response.d_limit = match response.d_gap[0][0] {
-            0.0 => limit.d_pressure,
-            slope => d_limit_gap / slope,
-        };
-        let toward = if path > 0.0 && limit.d_speed != 0.0 {
-            motion.length_slope(motion.slip, path)
-        } else {
-            [0.0; 2]
-        };
-        response.d_path = match at.slip.path {
-            None => lengthens(
-                &shear,
-                &motion,
-                response.d_limit,
-                rule.sticks() || at.slip.sprung,
-            ),
-            Some(_) => [0.0; 3],
-        };
-        for i in 0..2 {
-            let d_limit = shear.d_limit[i];
-            response.traction[i + 1] = shear.traction[i];
-            response.d_gap[i + 1][0] = d_limit * d_limit_gap;
-            response.d_skew[i + 1] = shear.d_skew[i];
-            response.d_multiplier[i + 1][0] =
-                d_limit * limit.d_pressure * response.d_multiplier[0][0];
-            // slip over the increment is the speed that the limit depends on, and that of a rule without a spring
-            let own = match rule.sticks() || at.slip.sprung {
-                true => 0.0,
-                false => shear.d_slip[i][i],
-            };
-            response.d_rate[i + 1] = own + d_limit * limit.d_speed * toward[i] / at.dt;
-            for (j, toward) in toward.iter().enumerate() {
-                response.d_gap[i + 1][j + 1] =
-                    shear.d_slip[i][j] + d_limit * limit.d_speed * toward / at.dt;
-                if keep != 0.0 && rule.sticks() && !at.slip.steady {
-                    // the trial traction is keep Σ_t + … - r s
-                    response.d_multiplier[i + 1][j + 1] =
-                        -keep * shear.d_slip[i][j] / at.stiffness.weight;
-                }
+        response.d_rate[i + 1] = own + d_limit * limit.d_speed * toward[i] / at.dt;
+        for (j, toward) in toward.iter().enumerate() {
+            response.d_gap[i + 1][j + 1] =
+                shear.d_slip[i][j] + d_limit * limit.d_speed * toward / at.dt;
+            if keep != 0.0 && rule.sticks() && !at.slip.steady {
+                // the trial traction is keep Σ_t + … - r s
+                response.d_multiplier[i + 1][j + 1] =
+                    -keep * shear.d_slip[i][j] / at.stiffness.weight;
             }
         }
     }

@@ -7,6 +7,7 @@ use std::path::Path;
 use super::identity::{Identity, Part};
 use super::substructure::{Floating, Seconds, Substructure, SweptPatterns};
 use crate::linear::{Compliance, Digest, PartialFactor};
+use crate::linear::{read_factor, write_factor};
 use crate::owner;
 
 /// Names the format.
@@ -87,7 +88,7 @@ fn write_all(path: &Path, whole: Whole) -> io::Result<()> {
 }
 
 fn encode((substructure, factor): Whole, out: &mut dyn Write) -> io::Result<()> {
-    factor.encode(out)?;
+    write_factor(factor, out)?;
     substructure.compliance.encode(out)?;
     let modes = substructure.floating.as_ref();
     let (modes, sigma) = modes.map_or((&[][..], 0.0), |f| (&f.modes[..], f.sigma));
@@ -148,7 +149,7 @@ pub(super) fn read(
 }
 
 fn decode(input: &mut Reader, identity: Identity, part: &Part) -> io::Result<Substructure> {
-    let partial = PartialFactor::decode(input)?;
+    let partial = read_factor(input)?;
     let fronts = partial.fronts();
     let b = part.matrix.block_size();
     let free = |p: usize| (p * b..(p + 1) * b).filter(|&dof| !part.fixed[dof]);

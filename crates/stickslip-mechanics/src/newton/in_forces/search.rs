@@ -4,7 +4,7 @@ use super::account::{Account, ERROR};
 use super::columns::Columns;
 use super::linear::Linear;
 use super::place::{At, Place};
-use crate::friction::solve;
+use crate::friction::{map, solve};
 use crate::system::{Cause, StepFailure};
 
 /// Part of the error that a solution with kept columns may leave; otherwise they are made anew.
@@ -36,7 +36,7 @@ pub(super) fn search(
     let (mut first, mut before) = (None, f64::INFINITY);
     loop {
         let problem = columns.problem(chosen, &forces, &du);
-        let error = problem.error(&forces);
+        let error = map::error(&problem, &forces);
         let enough = ENOUGH * *first.get_or_insert(error);
         let done = before.is_finite() && error <= enough.max(ERROR);
         let falls = error <= GAIN * before;

@@ -1,15 +1,13 @@
 //! From an attempt that failed to a finding.
 
-use super::check;
 use super::finding::{DoctorCause, Finding};
 use super::friction::friction_coefficient;
 use super::motions::{FloatingBody, Row, floating, rows};
-use super::places;
 use super::record::Counters;
 use super::signs::{prescribed_slip, signs, too_large_slip};
 use super::surfaces::Opposite;
 use super::suspect::{LocationKind, Severity, Suspect};
-use super::{balance, coupling};
+use super::{balance, check, coupling, places};
 use crate::assess::view::View;
 use crate::body::Formulation;
 use crate::contact::interface::ContactView;
@@ -18,6 +16,7 @@ use crate::contact::response::Status;
 use crate::error::RunError;
 use crate::math::Vec3;
 use crate::model::definition::Model;
+use crate::model::rigid::drivers;
 use crate::shape::ElementKind;
 use crate::system::{Cause, Evidence, StepFailure};
 use crate::time::Trial;
@@ -318,7 +317,7 @@ fn with_drivers(finding: Finding, view: &View, trial: &Trial) -> Finding {
 
 /// With the loads, supports and obstacles that drive a body, and the supports that held it in the step before.
 fn driven(finding: Finding, view: &View, body: usize, trial: &Trial) -> Finding {
-    let drivers = view.drivers(body, trial.to).into_iter();
+    let drivers = drivers::drivers(view, body, trial.to).into_iter();
     let finding = finding.blame_all(drivers.map(|d| Suspect::key(d.key, d.what)));
     let free: Vec<String> = (finding.guilty.iter())
         .filter(|g| g.what == LocationKind::Body)

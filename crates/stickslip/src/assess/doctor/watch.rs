@@ -1,14 +1,15 @@
 //! What interfaces did over a whole run: those that never carried anything, those whose contact is too small for their mesh.
 
-use crate::contact::look;
 use serde::Serialize;
 
 use super::finding::{DoctorCause, Finding};
 use super::places;
 use super::suspect::Suspect;
 use crate::assess::view::View;
-use crate::contact::interface::ContactView;
-use crate::contact::interface::InterfaceDefinition;
+use crate::assess::{quality, travel};
+use crate::body::turning;
+use crate::contact::interface::{ContactView, InterfaceDefinition};
+use crate::contact::look;
 use crate::contact::look::{Resolution, Resultant};
 use crate::math::Vec3;
 use crate::model::Body;
@@ -101,7 +102,7 @@ impl Watch {
 pub(crate) fn watched(view: &View, watches: &[Watch]) -> Vec<Finding> {
     let interfaces = view.contacts();
     let pairs = interfaces.zip(watches);
-    let nothing = NOTHING * view.strain_force();
+    let nothing = NOTHING * quality::strain_force(view);
     let mut out = strained(view);
     out.extend(
         pairs
@@ -132,10 +133,10 @@ fn strained(view: &View) -> Vec<Finding> {
     let limits = &view.model.reports.quality;
     let limit = limits.strain_limit();
     // Where a limit is given the gate judges all bodies.
-    let judged = |b: &&Body| view.has_frames(b) || limits.strain.is_some();
+    let judged = |b: &&Body| travel::has_frames(view, b) || limits.strain.is_some();
     let bodies = view.model.elastic().filter(|b| !judged(b));
     let strained = bodies.filter_map(|body| {
-        let strain = body.elastic.strain_level(&view.frame.state);
+        let strain = turning::strain_level(&body.elastic, &view.frame.state);
         let name = &body.name;
         (strain > limit && strain.is_finite()).then(|| {
             DoctorCause::LargeStrain.warning(format!(

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::error::{Error, MeshError};
 use crate::io::numbers::Numbers;
 use crate::io::write_atomically;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, check};
 use crate::shape::ElementKind;
 
 use super::faces::face_number;
@@ -36,7 +36,7 @@ pub fn write(path: &Path, mesh: &Mesh, plane: Space) -> Result<Vec<String>, Erro
 /// # Errors
 /// A mesh whose structure is wrong (see [`Mesh::check_structure`]).
 pub fn text(mesh: &Mesh, plane: Space) -> Result<(String, Vec<String>), MeshError> {
-    mesh.check_structure()?;
+    check::check_structure(mesh)?;
     let numbers = Numbers::of(mesh);
     let mut notes = numbers.notes.clone();
     let mut out = String::from("*HEADING\nmesh written by stickslip\n*NODE\n");

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use super::{parse, read};
 use crate::error::MeshError;
 use crate::math::{add, norm, scale, sub};
-use crate::mesh::{FacetRef, Mesh};
+use crate::mesh::{FacetRef, Mesh, check};
 use crate::shape::ElementKind;
 
 const FORMATS: [&str; 4] = ["msh22", "msh22-bin", "msh41", "msh41-bin"];
@@ -98,7 +98,7 @@ fn canonical(mesh: &Mesh) -> Vec<(String, Vec<Vec<usize>>)> {
 fn formats_agree() {
     for case in ["plate-1", "plate-2", "blocks-1", "blocks-2"] {
         let reference = load(case, "msh41-bin");
-        assert_eq!(reference.check().map_err(|e| e.to_string()), Ok(()));
+        assert_eq!(check::check(&reference).map_err(|e| e.to_string()), Ok(()));
         assert_middle_nodes(&reference);
         for format in FORMATS {
             let mesh = load(case, format);

@@ -11,7 +11,7 @@ use crate::error::{Error, MeshError};
 use crate::io::numbers::Numbers;
 use crate::io::sets::{memberships, own_point_sets};
 use crate::io::write_atomically;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, check, geometry};
 use crate::shape::ElementKind;
 
 use super::kinds::{Kind, kind};
@@ -38,10 +38,10 @@ pub fn write(path: &Path, mesh: &Mesh) -> Result<Vec<String>, Error> {
 /// # Errors
 /// A mesh whose structure is wrong (see [`Mesh::check_structure`]).
 pub fn text(mesh: &Mesh) -> Result<(String, Vec<String>), MeshError> {
-    mesh.check_structure()?;
+    check::check_structure(mesh)?;
     let numbers = Numbers::of(mesh);
     let mut notes = numbers.notes.clone();
-    if !mesh.unused_points().is_empty() {
+    if !check::unused_points(mesh).is_empty() {
         notes.push(
             "there are points that no cell uses: they are written, but most readers drop them"
                 .into(),
@@ -144,7 +144,7 @@ fn physical_names(out: &mut String, tags: &Tags, notes: &mut Vec<String>) {
 
 /// `tag, bounds, physical tags`; there is no geometry, so that the bounds are those of the mesh.
 fn entities(out: &mut String, mesh: &Mesh, layers: &[Layer; 4], tags: &Tags) {
-    let (lo, hi) = mesh.bounding_box().unwrap_or_default();
+    let (lo, hi) = geometry::bounding_box(mesh).unwrap_or_default();
     let counts: Vec<String> = layers
         .iter()
         .map(|layer| layer.entities.len().to_string())

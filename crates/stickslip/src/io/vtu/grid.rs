@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::error::MeshError;
 use crate::io::gmsh::{Faces, turned};
-use crate::mesh::{Block, CellRef, Mesh};
+use crate::mesh::{Block, CellRef, Mesh, geometry};
 use crate::shape::ElementKind;
 
 use super::array::Array;
@@ -346,7 +346,11 @@ impl Grid {
             cells[e] = Some(CellRef { block, cell });
         }
         mend_wedges(mesh);
-        if mesh.dim == 2 && mesh.cells().all(|cell| mesh.cell_measure(cell) < 0.0) {
+        if mesh.dim == 2
+            && mesh
+                .cells()
+                .all(|cell| geometry::cell_measure(mesh, cell) < 0.0)
+        {
             for block in &mut mesh.blocks {
                 let order = turned(block.kind);
                 for cell in block.connectivity.chunks_exact_mut(order.len()) {
@@ -416,7 +420,7 @@ impl Grid {
 /// Turns linear wedges over that are inside out: most other programs write them in the order of Abaqus and Gmsh, not in VTK's.
 fn mend_wedges(mesh: &mut Mesh) {
     let cells = mesh.cells().filter(|&cell| {
-        mesh.cell_kind(cell) == ElementKind::Wedge6 && mesh.cell_measure(cell) < 0.0
+        mesh.cell_kind(cell) == ElementKind::Wedge6 && geometry::cell_measure(mesh, cell) < 0.0
     });
     for CellRef { block, cell } in cells.collect::<Vec<_>>() {
         let nodes = &mut mesh.blocks[block].connectivity[6 * cell..6 * cell + 6];
@@ -485,7 +489,7 @@ fn sets_of(data: &Data, count: usize) -> Vec<(String, Vec<usize>)> {
 
 /// Sets `z` to zero in a plane mesh.
 fn flatten(mesh: &mut Mesh) -> Result<(), MeshError> {
-    let (lo, hi) = mesh.bounding_box().unwrap_or_default();
+    let (lo, hi) = geometry::bounding_box(mesh).unwrap_or_default();
     // Rounding of a plane that was rotated into place must pass; a surface that bends must not.
     if hi[2] - lo[2] > 1e-10 * (hi[0] - lo[0]).max(hi[1] - lo[1]) {
         return Err(MeshError::new(format!(

@@ -4,7 +4,7 @@ use std::path::Path;
 use crate::error::{Error, IoError};
 use crate::io::sets::{memberships, own_point_sets};
 use crate::io::write_atomically;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, check};
 use crate::shape::ElementKind;
 use crate::system::{Fields, Location};
 
@@ -138,7 +138,7 @@ const RESERVED: [&str; 2] = ["NODE_ID", "ELEMENT_ID"];
 /// [`Error::Mesh`] if the structure of the mesh is wrong (see [`Mesh::check_structure`]), [`Error::Io`] if the file cannot be
 /// written.
 pub fn write_mesh(path: &Path, mesh: &Mesh) -> Result<Vec<String>, Error> {
-    mesh.check_structure()?;
+    check::check_structure(mesh)?;
     let mut notes = Vec::new();
     let mut named = |name: &str| {
         if !RESERVED.contains(&name) {

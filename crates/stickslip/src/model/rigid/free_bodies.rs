@@ -61,29 +61,27 @@ struct Part {
     vector: Vec<f64>,
 }
 
-impl Scene<'_> {
-    /// The bodies that supports, springs, couplings and ties acting at `t` leave free to move.
-    pub(crate) fn free_bodies(&self, t: f64) -> Vec<FreeBody> {
-        let model = self.model;
-        let mut held = self.supported(t);
-        for spring in &model.actions.springs {
-            for &(dof, stiffness) in spring.entries() {
-                held[dof] |= stiffness > 0.0;
-            }
+/// The bodies that supports, springs, couplings and ties acting at `t` leave free to move.
+pub(crate) fn free_bodies(scene: &Scene, t: f64) -> Vec<FreeBody> {
+    let model = scene.model;
+    let mut held = scene.supported(t);
+    for spring in &model.actions.springs {
+        for &(dof, stiffness) in spring.entries() {
+            held[dof] |= stiffness > 0.0;
         }
-        let rows: Vec<_> = self.couplings().acting(t).collect();
-        let modes = modes(model);
-        let ties: Vec<&Interface> = (self.contact.interfaces.iter())
-            .filter(|i| i.laws.tied && i.schedule.active(t))
-            .collect();
-        let groups = groups(model, &ties);
-        let all = groups.iter().map(|group| {
-            let parts = parts(model, group, &rows, &modes);
-            let gram = resisted(model, &parts, &held, &rows, &modes, &ties, t);
-            free(model, group, &parts, &gram, &modes)
-        });
-        all.flatten().collect()
     }
+    let rows: Vec<_> = scene.couplings().acting(t).collect();
+    let modes = modes(model);
+    let ties: Vec<&Interface> = (scene.contact.interfaces.iter())
+        .filter(|i| i.laws.tied && i.schedule.active(t))
+        .collect();
+    let groups = groups(model, &ties);
+    let all = groups.iter().map(|group| {
+        let parts = parts(model, group, &rows, &modes);
+        let gram = resisted(model, &parts, &held, &rows, &modes, &ties, t);
+        free(model, group, &parts, &gram, &modes)
+    });
+    all.flatten().collect()
 }
 
 /// Bodies that ties join, each group in order.

@@ -83,50 +83,48 @@ impl Resisted<'_> {
     }
 }
 
-impl Scene<'_> {
-    /// Motions that neither supports, springs and couplings nor any contact could hold while the interfaces act as they do at `t`. Of contact
-    /// the most is believed: that every point of a secondary meets what it faces, that gaps of couplings close, and that friction is as large as need be.
-    /// Tied surfaces count without contact too.
-    pub(crate) fn unheld(&self, t: f64, modes: &[Mode], contact: bool) -> Vec<Unheld> {
-        let model = self.model;
-        let count = modes.len();
-        if count == 0 || count > MOST_MODES {
-            return Vec::new();
-        }
-        let mut resisted = Resisted {
-            model,
-            modes,
-            gram: vec![vec![0.0; count]; count],
-        };
-        let held = self.supported(t);
-        let held = held.iter().enumerate().filter(|(_, held)| **held);
-        held.for_each(|(dof, _)| resisted.dof(dof));
-        for &(dof, k) in model.actions.springs.iter().flat_map(|s| s.entries()) {
-            if k > 0.0 {
-                resisted.dof(dof);
-            }
-        }
-        let couplings = self.couplings();
-        let stops = couplings.stops(t).filter(|_| contact);
-        for row in couplings.acting(t).chain(stops) {
-            let values: Vec<_> = modes
-                .iter()
-                .map(|m| m.along(model, row))
-                .enumerate()
-                .collect();
-            resisted.row(&values, 1.0);
-        }
-        let acting = self
-            .contact
-            .interfaces
-            .iter()
-            .filter(|i| i.schedule.active(t));
-        for interface in acting.filter(|i| contact || i.laws.tied) {
-            let directions = directions(interface, t);
-            resisted.interface(interface, &directions);
-        }
-        plain(null_space(&resisted.gram, HELD).0)
+/// Motions that neither supports, springs and couplings nor any contact could hold while the interfaces act as they do at `t`. Of contact
+/// the most is believed: that every point of a secondary meets what it faces, that gaps of couplings close, and that friction is as large as need be.
+/// Tied surfaces count without contact too.
+pub(crate) fn unheld(scene: &Scene, t: f64, modes: &[Mode], contact: bool) -> Vec<Unheld> {
+    let model = scene.model;
+    let count = modes.len();
+    if count == 0 || count > MOST_MODES {
+        return Vec::new();
     }
+    let mut resisted = Resisted {
+        model,
+        modes,
+        gram: vec![vec![0.0; count]; count],
+    };
+    let held = scene.supported(t);
+    let held = held.iter().enumerate().filter(|(_, held)| **held);
+    held.for_each(|(dof, _)| resisted.dof(dof));
+    for &(dof, k) in model.actions.springs.iter().flat_map(|s| s.entries()) {
+        if k > 0.0 {
+            resisted.dof(dof);
+        }
+    }
+    let couplings = scene.couplings();
+    let stops = couplings.stops(t).filter(|_| contact);
+    for row in couplings.acting(t).chain(stops) {
+        let values: Vec<_> = modes
+            .iter()
+            .map(|m| m.along(model, row))
+            .enumerate()
+            .collect();
+        resisted.row(&values, 1.0);
+    }
+    let acting = scene
+        .contact
+        .interfaces
+        .iter()
+        .filter(|i| i.schedule.active(t));
+    for interface in acting.filter(|i| contact || i.laws.tied) {
+        let directions = directions(interface, t);
+        resisted.interface(interface, &directions);
+    }
+    plain(null_space(&resisted.gram, HELD).0)
 }
 
 /// Directions in which an interface may resist: all where it sticks or is tied, else those of its normals.

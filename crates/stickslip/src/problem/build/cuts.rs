@@ -5,7 +5,7 @@ use super::fault::problem_error;
 use crate::body::{Space, area_vectors};
 use crate::error::{Diagnostic, Error, MeshError};
 use crate::math::{Vec3, add, dot, normalize};
-use crate::mesh::{Appended, CellRef, Cut, FacetRef, Mesh};
+use crate::mesh::{Appended, CellRef, Cut, FacetRef, Mesh, cut};
 
 /// A cut through a body in the mesh of all bodies, see [`Cut`].
 pub(super) struct BuiltCut {
@@ -86,7 +86,7 @@ pub(super) fn cut(problem: &Problem, body: &str, mesh: &mut Mesh) -> Result<Vec<
                         ));
                     }
                 };
-                let faces = mesh.faces_along(&cells, vec3(&plane.point), normal);
+                let faces = cut::faces_along(mesh, &cells, vec3(&plane.point), normal);
                 (faces.map_err(fault(key.clone()))?, normal)
             }
             Section::Facets(facets) => {
@@ -104,14 +104,17 @@ pub(super) fn cut(problem: &Problem, body: &str, mesh: &mut Mesh) -> Result<Vec<
                     return Err(problem_error(vec![finding]));
                 };
                 match dot(mean, normal) < 0.0 {
-                    true => (mesh.across(&given).map_err(fault(key.clone()))?, normal),
+                    true => (
+                        cut::across(mesh, &given).map_err(fault(key.clone()))?,
+                        normal,
+                    ),
                     false => (given, normal),
                 }
             }
         };
         cuts.push(BodyCut {
             name: name.clone(),
-            cut: mesh.cut(&near).map_err(fault(key))?,
+            cut: cut::cut(mesh, &near).map_err(fault(key))?,
             normal,
         });
     }

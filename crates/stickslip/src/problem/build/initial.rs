@@ -9,7 +9,7 @@ use super::sets::Sets;
 use crate::error::{Diagnostic, Error};
 use crate::io::vtu;
 use crate::math::{Vec3, add, cross, distance, scale, sub};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, geometry};
 use crate::model::{Initial, Support};
 use crate::system::{Dofs, Motion};
 
@@ -156,7 +156,7 @@ pub(super) fn match_points(
     mesh: &Mesh,
     others: &[Vec3],
 ) -> Result<Vec<usize>, usize> {
-    let reach = 1e-6 * mesh.diameter();
+    let reach = 1e-6 * geometry::diameter(mesh);
     let mut order: Vec<usize> = (0..others.len()).collect();
     order.sort_by(|&a, &b| others[a][0].total_cmp(&others[b][0]));
     points

@@ -13,7 +13,7 @@ use crate::body::Part;
 use crate::error::{Diagnostic, Error, MeshError};
 use crate::io::gmsh;
 use crate::math::{add, scale};
-use crate::mesh::{Block, CellRef, Mesh};
+use crate::mesh::{Block, CellRef, Mesh, check, combine, cut};
 
 /// Meshes from memory, by the name under which a problem asks for them as a file: `gmsh = { file = "NAME" }`.
 pub type Meshes = BTreeMap<PathBuf, Arc<Mesh>>;
@@ -62,7 +62,7 @@ pub(super) fn build(
                 .help("change `model.space` or the mesh"),
             ]));
         }
-        own.check().map_err(|mut e| {
+        check::check(&own).map_err(|mut e| {
             e.message = format!("body {name}: {}", e.message);
             if let MeshSource::Gmsh(file) = &body.mesh {
                 e.file = Some(folder.join(&file.file));
@@ -74,9 +74,9 @@ pub(super) fn build(
         let mut pieces = Vec::new();
         if !cuts.is_empty() {
             let cells: Vec<CellRef> = own.cells().collect();
-            pieces = own.pieces(&cells).split_off(1);
+            pieces = cut::pieces(&own, &cells).split_off(1);
         }
-        let at = mesh.append(&own, name)?;
+        let at = combine::append(&mut mesh, &own, name)?;
         let place = |piece: Vec<usize>| piece.into_iter().map(|p| p + at.points.start).collect();
         let pieces = pieces.into_iter().map(place).collect();
         let parts = assigned
@@ -159,7 +159,7 @@ fn source(
                     .help(format!("its groups of cells are: {}", known.join(", "))),
                 ]));
             };
-            Ok(mesh.extract(cells))
+            Ok(combine::extract(mesh, cells))
         }
     }
 }

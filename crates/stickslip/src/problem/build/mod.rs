@@ -27,13 +27,12 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::{BodyRotation, Problem};
-use crate::body::Elastic;
-use crate::body::Space;
 use crate::body::couplings::{Coupling, Couplings, Ground};
 use crate::body::loads::{Action, Domain, Load, LoadKind, Pressing, Region, Spring, Target};
+use crate::body::{Elastic, Space};
 use crate::contact::interface::{Interface, InterfaceDefinition};
 use crate::error::{Diagnostic, Error};
-use crate::mesh::{FacetRef, Mesh};
+use crate::mesh::{FacetRef, Mesh, geometry};
 use crate::model::{
     Actions, Body, Contact, Heat, Model, OutputPlan, Prescribed, Probe, Reference, ReportPlan,
     Setup, SolutionPlan, Step, Support,
@@ -405,7 +404,7 @@ impl Problem {
         let model = Model {
             title: self.title.clone().unwrap_or_default(),
             space,
-            size: mesh.diameter(),
+            size: geometry::diameter(&mesh),
             dofs,
             links: links.with_followers(attached.followers),
             frames,

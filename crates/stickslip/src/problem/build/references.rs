@@ -7,12 +7,12 @@ use super::super::reference::spin_matrix;
 use super::fault::problem_error;
 use super::rigid::freedom;
 use super::sets::{Sets, vec3};
-use crate::body::Space;
 use crate::body::couplings::{Coupling, CouplingKind};
 use crate::body::loads::{Load, Spring};
+use crate::body::{Space, moments};
 use crate::error::{Diagnostic, Error};
 use crate::math::{Mat3, Vec3, add_scaled, distance, dot, norm, sub, symmetric_eigen};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, geometry};
 use crate::model::{Body, Reference, Rigid, Step, Support};
 use crate::system::{BodyFrames, DependentNode, Dofs, Freedom, Link, Links, Motion};
 
@@ -86,7 +86,7 @@ fn reach(
             }
         }
     }
-    let (mean, size) = (sum / count.max(1) as f64, mesh.diameter());
+    let (mean, size) = (sum / count.max(1) as f64, geometry::diameter(mesh));
     Ok(if mean > 1e-6 * size { mean } else { 0.5 * size })
 }
 
@@ -194,7 +194,7 @@ fn carried(
     let mut out = own;
     let (mut first, mut size) = ([0.0; 3], 0.0);
     for body in bodies {
-        let moments = body.elastic.mass_moments();
+        let moments = moments::mass_moments(&body.elastic);
         let arm = sub(moments.centre, link.centre);
         first = add_scaled(first, moments.mass, arm);
         size += moments.mass * (norm(arm) + moments.radius());

@@ -2,7 +2,7 @@
 
 use super::super::BodyRotation;
 use super::fault::problem_error;
-use crate::body::{Elastic, Space};
+use crate::body::{Elastic, Space, moments};
 use crate::error::{Diagnostic, Error};
 use crate::math::{Mat3, sub, symmetric_eigen};
 use crate::model::{Body, Prescribed, Rigid};
@@ -23,7 +23,7 @@ pub(super) fn link(
     index: usize,
     rotation: &BodyRotation,
 ) -> (Link, Rigid) {
-    let moments = elastic.mass_moments();
+    let moments = moments::mass_moments(elastic);
     let freedom = freedom(elastic.space());
     let x = &elastic.mesh().points[points.clone()];
     let length = moments.radius();

@@ -7,7 +7,7 @@ use super::super::{Problem, Select};
 use super::fault::problem_error;
 use crate::error::{Diagnostic, Error};
 use crate::math::{Vec3, distance, dot, normalize, sub};
-use crate::mesh::{CellRef, FacetRef, Mesh};
+use crate::mesh::{CellRef, FacetRef, Mesh, select};
 use crate::model::Body;
 
 /// Resolves names of sets against the joined mesh.
@@ -212,7 +212,7 @@ impl<'a> Sets<'a> {
             return Ok(facets.clone());
         }
         let points = self.points(name, key)?;
-        let mut facets = self.mesh.boundary_within(&points);
+        let mut facets = select::boundary_within(self.mesh, &points);
         facets.retain(|f| !self.inside.contains(f));
         if facets.is_empty() {
             return Err(self.unknown(

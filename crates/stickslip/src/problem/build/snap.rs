@@ -1,13 +1,13 @@
 //! Points of secondary surfaces that are moved onto the primary before anything is computed.
 
-use crate::contact::look;
 use std::collections::BTreeMap;
 
 use super::super::Problem;
 use crate::contact::interface::{Interface, Start};
+use crate::contact::look;
 use crate::error::Error;
 use crate::math::{Vec3, add as add_vectors, norm};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, check};
 
 /// By which vectors points of the mesh are to be moved, and a note for each interface that asks for it.
 #[derive(Debug, Clone, Default)]
@@ -67,7 +67,7 @@ pub(super) fn apply(moves: &Moves, mesh: &mut Mesh) -> Result<(), Error> {
     for (&point, &by) in &moves.points {
         mesh.points[point] = add_vectors(mesh.points[point], by);
     }
-    mesh.check().map_err(|mut e| {
+    check::check(mesh).map_err(|mut e| {
         e.message = format!("after points of surfaces were moved: {}", e.message);
         e.help = Some(
             "give a smaller `initial-tolerance` or `initial-distance`, or `initial = \"offset\"`; where surfaces are `worn`, cells higher than they are worn deep"

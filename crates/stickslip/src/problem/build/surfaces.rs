@@ -12,7 +12,7 @@ use crate::contact::surface::{ContactPoint, Facet};
 use crate::contact::walls::{depth_behind, depths};
 use crate::error::{Diagnostic, Error};
 use crate::math::{Vec3, add_scaled, cross, dot, norm, normalize, sub};
-use crate::mesh::{FacetRef, Mesh};
+use crate::mesh::{FacetRef, Mesh, geometry};
 use crate::model::Body;
 use crate::shape::{ElementKind, QuadraturePoint, mass_rule};
 
@@ -143,7 +143,7 @@ impl Surfaces<'_> {
             normal,
             measure,
             modulus: self.modulus(facet.cell.block),
-            height: factor * self.mesh.cell_measure(facet.cell) / measure,
+            height: factor * geometry::cell_measure(self.mesh, facet.cell) / measure,
         }
     }
 

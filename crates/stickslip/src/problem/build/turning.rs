@@ -7,6 +7,7 @@ use super::super::{BodyRotation, Problem};
 use super::fault::problem_error;
 use super::references::Said;
 use super::sets::Sets;
+use crate::body::mass;
 use crate::contact::interface::InterfaceDefinition;
 use crate::error::{Diagnostic, Error};
 use crate::math::identity;
@@ -50,7 +51,7 @@ pub(super) fn corotations(
         |b: &&Body| b.rigid.is_none() && problem.body[&b.name].rotation == BodyRotation::Large;
     let each = bodies.iter().filter(free).map(|body| {
         let mut masses = vec![0.0; dofs.points];
-        body.elastic.add_lumped_mass(&mut masses);
+        mass::add_lumped_mass(&body.elastic, &mut masses);
         let mut weights = masses[body.points.clone()].to_vec();
         // Without a density there is none, or what dividing by it makes.
         if !weights.iter().all(|w| *w > 0.0) {

@@ -15,72 +15,70 @@ const MOST_WIDENED: usize = 4;
 /// Times within a step at which supports are looked at.
 const SAMPLES: usize = 16;
 
-impl Solver {
-    /// Points that may come into contact in this step, as far as can be told; never fewer than before. Those that may not are
-    /// not looked at.
-    pub fn choose_candidates(&mut self, model: &Model, frame: &Frame, contact: &Contact) {
-        if !self.method.condenses() {
-            self.log.method = self.method.key();
-        }
-        let points = model.dofs.points;
-        let known = self.condenser.kept.take();
-        let mut kept = known.unwrap_or_else(|| vec![false; points]);
-        let mut all = vec![false; points];
-        for &node in contact.interfaces.iter().flat_map(|i| &i.nodes) {
-            all[node] = true;
-        }
-        let count = all.iter().filter(|a| **a).count();
-        let widened = self.condenser.widened;
-        if count < FEW || widened >= MOST_WIDENED || !self.method.condenses() {
-            for (interface, conditions) in contact.interfaces.iter().zip(&mut self.conditions) {
-                conditions.candidates = include_all(interface, &mut kept);
-            }
-        } else {
-            let step = &model.steps[frame.step];
-            let travel = travel(model, frame) * f64::powi(2.0, widened as i32);
-            let range = CandidateRange {
-                distance: travel + extra(widened, model),
-                along: travel,
-                span: [step.start, step.end],
-            };
-            let turns = |node: &usize| model.corotations.of_point(*node).is_some();
-            let u = &frame.state.u;
-            for (interface, conditions) in contact.views(frame).zip(&mut self.conditions) {
-                conditions.candidates = match interface.nodes.iter().any(turns) {
-                    // In turn all of its points come round.
-                    true => include_all(interface.definition, &mut kept),
-                    false => restrict_to_candidates(interface, u, range, &mut kept),
-                };
-            }
-        }
-        for point in self.floating.points() {
-            kept[point] = true;
-        }
-        for point in contact.couplings.points() {
-            kept[point] = true;
-        }
-        for point in model.links.followed() {
-            kept[point] = true;
-        }
-        for link in model.links.all() {
-            kept[link.points.clone()].fill(false);
-            kept[link.hidden..link.hidden + 2].fill(true);
-        }
-        self.condenser.kept = Some(kept);
+/// Points that may come into contact in this step, as far as can be told; never fewer than before. Those that may not are
+/// not looked at.
+pub fn choose_candidates(solver: &mut Solver, model: &Model, frame: &Frame, contact: &Contact) {
+    if !solver.method.condenses() {
+        solver.log.method = solver.method.key();
     }
-
-    /// Lets all points take part.
-    pub fn include_all(&mut self, model: &Model, contact: &Contact) {
-        let mut kept = vec![false; model.dofs.points];
-        for (interface, conditions) in contact.interfaces.iter().zip(&mut self.conditions) {
+    let points = model.dofs.points;
+    let known = solver.condenser.kept.take();
+    let mut kept = known.unwrap_or_else(|| vec![false; points]);
+    let mut all = vec![false; points];
+    for &node in contact.interfaces.iter().flat_map(|i| &i.nodes) {
+        all[node] = true;
+    }
+    let count = all.iter().filter(|a| **a).count();
+    let widened = solver.condenser.widened;
+    if count < FEW || widened >= MOST_WIDENED || !solver.method.condenses() {
+        for (interface, conditions) in contact.interfaces.iter().zip(&mut solver.conditions) {
             conditions.candidates = include_all(interface, &mut kept);
         }
-        self.condenser.kept = None;
-        self.log.method = "explicit";
-        if model.solution.engine.as_dyn().condenses() {
-            let idle = "explicit steps factor nothing: the engine has nothing to do in them";
-            self.log.notes.push(idle.into());
+    } else {
+        let step = &model.steps[frame.step];
+        let travel = travel(model, frame) * f64::powi(2.0, widened as i32);
+        let range = CandidateRange {
+            distance: travel + extra(widened, model),
+            along: travel,
+            span: [step.start, step.end],
+        };
+        let turns = |node: &usize| model.corotations.of_point(*node).is_some();
+        let u = &frame.state.u;
+        for (interface, conditions) in contact.views(frame).zip(&mut solver.conditions) {
+            conditions.candidates = match interface.nodes.iter().any(turns) {
+                // In turn all of its points come round.
+                true => include_all(interface.definition, &mut kept),
+                false => restrict_to_candidates(interface, u, range, &mut kept),
+            };
         }
+    }
+    for point in solver.floating.points() {
+        kept[point] = true;
+    }
+    for point in contact.couplings.points() {
+        kept[point] = true;
+    }
+    for point in model.links.followed() {
+        kept[point] = true;
+    }
+    for link in model.links.all() {
+        kept[link.points.clone()].fill(false);
+        kept[link.hidden..link.hidden + 2].fill(true);
+    }
+    solver.condenser.kept = Some(kept);
+}
+
+/// Lets all points take part.
+pub fn keep_all_points(solver: &mut Solver, model: &Model, contact: &Contact) {
+    let mut kept = vec![false; model.dofs.points];
+    for (interface, conditions) in contact.interfaces.iter().zip(&mut solver.conditions) {
+        conditions.candidates = include_all(interface, &mut kept);
+    }
+    solver.condenser.kept = None;
+    solver.log.method = "explicit";
+    if model.solution.engine.as_dyn().condenses() {
+        let idle = "explicit steps factor nothing: the engine has nothing to do in them";
+        solver.log.notes.push(idle.into());
     }
 }
 

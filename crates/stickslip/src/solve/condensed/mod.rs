@@ -1,6 +1,6 @@
 //! Static condensation: increments on the contact candidates.
 
-mod at_rest;
-mod candidates;
-mod condensing;
-mod in_motion;
+pub(crate) mod at_rest;
+pub(crate) mod candidates;
+pub(crate) mod condensing;
+pub(crate) mod in_motion;

@@ -19,7 +19,7 @@ use super::super::sides::facet_weights;
 use super::along_track::track_depth;
 use crate::contact::kinematics::Stencil;
 use crate::contact::law::wear::{Feedback, Sliding, WearPoint, WearRate};
-use crate::contact::response::{LawInput, Response, Status, Worn};
+use crate::contact::response::{LawInput, Response, Status, Worn, respond};
 use crate::math::{Vec3, add_scaled, norm, scale};
 
 /// Evaluations of the laws after which path and pressure of a point that wears are taken as they are, and the change of the depth that is none.
@@ -118,7 +118,7 @@ pub(in crate::contact) fn wearing(
     moved: Vec3,
     at: &mut LawInput,
 ) -> Response {
-    let mut response = interface.laws.respond(stencil, at);
+    let mut response = respond::respond(&interface.laws, stencil, at);
     if at.pressed {
         return response;
     }
@@ -132,7 +132,7 @@ pub(in crate::contact) fn wearing(
             break;
         }
         at.worn = worn;
-        response = interface.laws.respond(stencil, at);
+        response = respond::respond(&interface.laws, stencil, at);
     }
     deepen(interface, stencil, moved, at, &mut response);
     response

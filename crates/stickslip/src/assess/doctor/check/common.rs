@@ -6,6 +6,7 @@ use crate::contact::interface::InterfaceDefinition;
 use crate::math::Vec3;
 use crate::model::definition::Model;
 use crate::model::scene::Scene;
+use crate::model::thermal;
 
 /// The diagonal of the box around a body.
 pub(super) fn diameter(points: &[Vec3]) -> f64 {
@@ -107,7 +108,7 @@ pub(super) fn forced_by_loads(scene: &Scene) -> bool {
     let model = scene.model;
     let couplings = scene.contact.couplings.all().iter();
     let draws = |tie: &Tie| matches!(tie, Tie::Pretension(p) if p.draws());
-    if couplings.into_iter().any(|c| draws(&c.tie)) || model.is_heated() {
+    if couplings.into_iter().any(|c| draws(&c.tie)) || thermal::is_heated(model) {
         return true;
     }
     model.actions.loads.iter().any(|l| {

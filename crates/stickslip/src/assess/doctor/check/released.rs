@@ -8,6 +8,7 @@ use super::super::places::body;
 use super::super::suspect::Suspect;
 use crate::assess::view::View;
 use crate::model::definition::{Body, Model, Step};
+use crate::model::rigid::held;
 use crate::model::rigid::held::NO_PART;
 use crate::model::rigid::modes::{Mode, modes};
 use crate::system::{Course, Schedule};
@@ -132,7 +133,7 @@ struct Motions {
 /// Motions as a whole that nothing but contact resists, by body.
 fn free(view: &View, modes: &[Mode], t: f64) -> BTreeMap<usize, Motions> {
     let mut out: BTreeMap<usize, Motions> = BTreeMap::new();
-    for unheld in view.unheld(t, modes, false) {
+    for unheld in held::unheld(view, t, modes, false) {
         let mut moved = BTreeSet::new();
         for (mode, part) in modes.iter().zip(unheld) {
             if part.abs() > NO_PART {

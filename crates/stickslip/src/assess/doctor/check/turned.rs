@@ -12,6 +12,7 @@ use crate::contact::look::Pressing;
 use crate::math::{Vec3, norm};
 use crate::model::definition::{Body, Model};
 use crate::model::limits::GateMode;
+use crate::model::rigid::anchors;
 use crate::model::scene::Scene;
 
 /// A rotation that a support prescribes.
@@ -92,7 +93,7 @@ fn turns<'a>(scene: &Scene<'a>, t: f64) -> Vec<Turn<'a>> {
             let (what, bodies) = match (own, reference) {
                 (Some(body), _) => (model.bodies[body].name.as_str(), vec![body]),
                 (None, Some(reference)) => {
-                    let tied = tied.get_or_insert_with(|| scene.tied_to_references(t));
+                    let tied = tied.get_or_insert_with(|| anchors::tied_to_references(scene, t));
                     let own = tied.iter().find(|(r, _)| *r == reference);
                     let bodies = own.map_or(Vec::new(), |(_, bodies)| bodies.clone());
                     (model.references[reference].name.as_str(), bodies)
@@ -141,7 +142,7 @@ fn missed(
     if turning == [None, None] || !counts || !interface.schedule.active(turn.time) {
         return None;
     }
-    let anchors = scene.anchors(turn.time);
+    let anchors = anchors::anchors(scene, turn.time);
     let turned = turning.map(|body| {
         body.map(|b| Turned {
             by: turn.by,

@@ -163,7 +163,7 @@ impl MissingInterface {
         };
         (moved > 0.0 && pair.was_apart())
             .then(|| self.overlap(&placed, pair))
-            .filter(|found| placed.worse(found, pair, moved))
+            .filter(|found| worse(&placed, found, pair, moved))
     }
 
     /// A place where the two touch as they are meshed.
@@ -195,11 +195,11 @@ impl MissingInterface {
             if found.depth <= pair.start.depth {
                 continue;
             }
-            let mut moved = placed.spread(pair);
+            let mut moved = spread(&placed, pair);
             if let Other::Obstacle(i) = pair.other {
                 moved += scene.contact.interfaces[i].obstacle_way(start, t);
             }
-            if placed.worse(&found, pair, moved) {
+            if worse(&placed, &found, pair, moved) {
                 let message = format!(
                     "{} have come to overlap by {:.3e}, and no interface joins them: they pass through each other",
                     names(scene, pair),
@@ -404,30 +404,28 @@ impl MissingInterface {
     }
 }
 
-impl Placed<'_> {
-    /// Whether an overlap is more than at the start, and more than rounding, of two that have moved so far against each other.
-    fn worse(&self, found: &Overlap, pair: &Pair, moved: f64) -> bool {
-        let least = (DEEPER * moved).max(ROUNDING * self.scene.model.size);
-        found.depth - pair.start.depth > least
-    }
+/// Whether an overlap is more than at the start, and more than rounding, of two that have moved so far against each other.
+fn worse(placed: &Placed, found: &Overlap, pair: &Pair, moved: f64) -> bool {
+    let least = (DEEPER * moved).max(ROUNDING * placed.scene.model.size);
+    found.depth - pair.start.depth > least
+}
 
-    /// By how much displacements of the two differ `[m]`.
-    fn spread(&self, pair: &Pair) -> f64 {
-        let mut points = self.scene.model.bodies[pair.body]
-            .points
-            .clone()
-            .collect::<Vec<_>>();
-        let mut moves: Vec<Vec3> = Vec::new();
-        match pair.other {
-            Other::Body(other) => points.extend(self.scene.model.bodies[other].points.clone()),
-            Other::Obstacle(_) => moves.push([0.0; 3]),
-        }
-        moves.extend(
-            points
-                .into_iter()
-                .map(|p| self.scene.model.dofs.vector(self.u, p)),
-        );
-        let (low, high) = bounds(&moves);
-        distance(low, high)
+/// By how much displacements of the two differ `[m]`.
+fn spread(placed: &Placed, pair: &Pair) -> f64 {
+    let mut points = placed.scene.model.bodies[pair.body]
+        .points
+        .clone()
+        .collect::<Vec<_>>();
+    let mut moves: Vec<Vec3> = Vec::new();
+    match pair.other {
+        Other::Body(other) => points.extend(placed.scene.model.bodies[other].points.clone()),
+        Other::Obstacle(_) => moves.push([0.0; 3]),
     }
+    moves.extend(
+        points
+            .into_iter()
+            .map(|p| placed.scene.model.dofs.vector(placed.u, p)),
+    );
+    let (low, high) = bounds(&moves);
+    distance(low, high)
 }
