@@ -7,8 +7,8 @@
 use super::quasi_static::{QuasiStatic, pairs};
 use super::sight::{Ended, InertialFrame, in_space};
 use crate::body::couplings::fit;
-use crate::integrate::quasi_static;
 use crate::math::vector::difference;
+use crate::model::conditions;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
@@ -103,7 +103,7 @@ fn pass(
     let forces = found.forces.clone();
     let accepted = Accepted {
         flow: Flow {
-            work: quasi_static::work(&inside, &fixed, &at.u, &forces, &external),
+            work: conditions::work(&inside, &fixed, &at.u, &forces, &external),
             ..Flow::default()
         },
         strain: solver.bodies.energy(Deformed {

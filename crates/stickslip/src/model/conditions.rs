@@ -157,3 +157,41 @@ impl Frame {
         external
     }
 }
+
+/// Work of loads and reactions over an increment by the trapezoidal rule: exact for forces that vary linearly. It begins with what held the last
+/// accepted state in balance, not with what an amplitude says of its time: a load that is there at once, or changes from one step to the next, is
+/// taken from one equilibrium to the other like any other, and a support that lets go has done its part until then.
+pub(crate) fn work(
+    frame: &Frame,
+    fixed: &[bool],
+    u: &[f64],
+    forces: &[f64],
+    external: &[f64],
+) -> f64 {
+    let mut work = 0.0;
+    for (i, after) in external.iter().enumerate() {
+        let before = frame.load[i] + frame.forces[i];
+        let reaction = if fixed[i] { forces[i] } else { 0.0 };
+        work += 0.5 * (before + after + reaction) * (u[i] - frame.state.u[i]);
+    }
+    work
+}
+
+/// Half of what loads and reactions have done on the frames of bodies that turn, whichever way: what some hand on others take. By the trapezoidal rule.
+pub(crate) fn transmitted(
+    frame: &Frame,
+    model: &Model,
+    u: &[f64],
+    forces: &[f64],
+    external: &[f64],
+) -> f64 {
+    let dofs = model.dofs;
+    let frames = model.frames.all().iter();
+    let carried = frames.filter_map(|f| f.hidden());
+    let own = carried.flat_map(|h| dofs.of(h, 0)..dofs.of(h + 2, 0));
+    let work = own.map(|i| {
+        let sum = frame.load[i] + frame.forces[i] + external[i] + forces[i];
+        0.5 * sum * (u[i] - frame.state.u[i])
+    });
+    0.5 * work.map(f64::abs).sum::<f64>()
+}

@@ -353,3 +353,9 @@ fn thrown(scene: Scene, astray: Astray, trial: Trial) -> StepFailure {
         "smaller increments; a law that presses across the gap, or points that are pressed in far by one increment, can throw a body that nothing else holds: support it, or hold it by weak springs (`[load.NAME] spring`)",
     )
 }
+
+/// The part of the largest load so far below which a load counts as zero: the residual that increments may leave, and so the remainder of the reaction of a released
+/// support.
+pub(super) fn no_load(model: &Model) -> f64 {
+    model.solution.settings.tolerance
+}

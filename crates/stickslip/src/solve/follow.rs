@@ -1,8 +1,7 @@
 //! Floating bodies are moved until they touch, and anchored until contact holds them.
 
 use super::closure::{close, pushes};
-use super::floating_bodies::{Floating, Origin};
-use super::released::no_load;
+use super::floating_bodies::{Floating, Origin, no_load};
 use super::rigid_part::rigid_part;
 use super::solver::Solver;
 use super::work::Work;

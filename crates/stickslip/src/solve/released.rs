@@ -1,7 +1,7 @@
 //! Floating bodies whose loads have gone: nothing presses them any more, and they stay where they were.
 
 use super::accepted::Accepted;
-use super::floating_bodies::Floating;
+use super::floating_bodies::{Floating, no_load};
 use super::solver::Solver;
 use crate::math::norm;
 use crate::model::contact::Contact;
@@ -11,12 +11,6 @@ use crate::model::rigid::free_bodies::FreeBody;
 use crate::model::scene::Scene;
 use crate::solve::follow;
 use crate::time::Trial;
-
-/// The part of the largest load so far below which a load counts as zero: the residual that increments may leave, and so the remainder of the reaction of a released
-/// support.
-pub(super) fn no_load(model: &Model) -> f64 {
-    model.solution.settings.tolerance
-}
 
 /// Force of contact on a body, relative to the largest load so far, that does not press it. Anchors give up when they carry less.
 const NOT_PRESSED: f64 = 1e-6;

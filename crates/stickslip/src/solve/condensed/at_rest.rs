@@ -3,9 +3,9 @@
 use std::time::Instant;
 
 use crate::contact::look;
-use crate::integrate::quasi_static;
 use crate::linear::{LinearError, Matrix};
 use crate::math::vector::dot;
+use crate::model::conditions;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::{ContactMemory, Frame};
@@ -221,8 +221,8 @@ pub fn complete(
     }
     accepted.strain = 0.5 * dot(u, &internal);
     accepted.flow = Flow {
-        work: quasi_static::work(frame, &fixed, u, &forces, &accepted.external),
-        transmitted: quasi_static::transmitted(frame, model, u, &forces, &accepted.external),
+        work: conditions::work(frame, &fixed, u, &forces, &accepted.external),
+        transmitted: conditions::transmitted(frame, model, u, &forces, &accepted.external),
         ..Flow::default()
     };
     accepted.forces = forces;

@@ -7,7 +7,6 @@ use rayon::prelude::*;
 use super::job::Job;
 use super::options::MumpsOptions;
 use super::words::WordWriter;
-use crate::linear::engine::mumps::cells;
 use crate::linear::engine::split::Split;
 use crate::linear::union::Union;
 use crate::linear::{LinearError, Matrix, Summands};
@@ -68,7 +67,7 @@ impl Body {
         let cells = matrix.cells(self.split.points(b));
         match &cells {
             Some(cells) => {
-                cells::deal_cells(self, &**cells, b, &path, &mut union)?;
+                self.deal_cells(&**cells, b, &path, &mut union)?;
                 self.deal_entries(&path, &mut union, true, &mut |visit| cells.others(visit))?;
             }
             None => {
