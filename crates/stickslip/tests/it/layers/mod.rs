@@ -89,7 +89,6 @@ const SPREAD: &[(&str, usize)] = &[
     ("model::frame::Frame", 2),
     ("model::heat::Heat", 2),
     ("model::scene::Scene", 6),
-    ("parse::reader::Reader", 27),
     ("problem::data::Problem", 3),
     ("problem::document::Document", 2),
     ("problem::expected::Expected", 2),
