@@ -139,6 +139,13 @@ impl Deck {
     pub fn label(&self, number: u64) -> String {
         self.numbering.label(number)
     }
+
+    /// Adds to what changes in the last step.
+    pub(crate) fn act(&mut self, action: Action) {
+        if let Some(step) = self.steps.last_mut() {
+            step.actions.push(action);
+        }
+    }
 }
 
 /// An element.

@@ -1,6 +1,5 @@
 //! Cards to a [`Deck`].
 
-mod beyond;
 mod couplings;
 mod elements;
 mod fields;
@@ -16,6 +15,7 @@ mod links;
 mod loads;
 mod material;
 mod material_motion;
+mod messages;
 mod names;
 mod nodes;
 mod orientation;
@@ -41,6 +41,7 @@ use table::{Fate, Row};
 use crate::card::{Card, Place};
 use crate::deck::Deck;
 use crate::finding::DeckError;
+use crate::motion::Motion;
 use crate::source::Source;
 
 impl Deck {
@@ -66,15 +67,15 @@ impl Deck {
     /// Those of [`Deck::read`].
     pub fn from_source(source: &Source) -> Result<Deck, DeckError> {
         let mut reader = Reader::new(source);
-        reader.deck.numbering = instances::numbering(source);
+        reader.scope.numbering = instances::numbering(source);
         for (place, message) in &source.forgiven {
-            reader.note(*place, message.clone());
+            reader.messages.note(*place, message.clone());
         }
         for (at, card) in source.cards.iter().enumerate() {
             reader.structure.at = at;
-            reader.card(card);
+            read_card(&mut reader, card);
         }
-        reader.finish()
+        finish(reader)
     }
 }
 
@@ -83,103 +84,119 @@ fn parameters(keyword: &str) -> Option<Vec<&'static str>> {
     table::row(keyword).map(Row::names)
 }
 
-impl Reader<'_> {
-    fn finish(mut self) -> Result<Deck, DeckError> {
-        let end = Place::default();
-        if !self.messages.stopped {
-            self.close_all();
-        }
-        if self.messages.stopped || self.structure.incomplete {
-            return Err(DeckError {
-                findings: self.verdict(),
-            });
-        }
-        self.judge_waiting();
-        self.judge_bounding();
-        self.judge_absent();
-        if self.deck.nodes.is_empty() && self.sound() {
-            self.error(end, "the deck has no nodes", "give them with *NODE");
-        }
-        if self.deck.elements.is_empty() && self.sound() {
-            self.error(
-                end,
-                "the deck has no elements",
-                "give them with *ELEMENT, TYPE=...",
-            );
-        }
-        if self.position.in_step {
-            self.step_without_procedure();
-            let place = self.deck.steps.last().map_or(end, |s| s.place);
-            self.warn(place, "the last step has no *END STEP", "");
-        }
-        self.check_names();
-        self.deck.unused = unused::unused(self.source);
-        match self.sound() {
-            true => Ok(self.deck),
-            false => Err(DeckError {
-                findings: self.verdict(),
-            }),
-        }
+fn finish(mut reader: Reader) -> Result<Deck, DeckError> {
+    let end = Place::default();
+    if !reader.messages.stopped {
+        instances::close_all(&mut reader);
     }
+    if reader.messages.stopped || reader.structure.incomplete {
+        let findings = reader.messages.verdict();
+        return Err(DeckError { findings });
+    }
+    elements::judge_waiting(&mut reader);
+    elements::judge_bounding(&mut reader);
+    sets::judge_absent(&mut reader);
+    let messages = &mut reader.messages;
+    if reader.deck.nodes.is_empty() && messages.sound() {
+        messages.error(end, "the deck has no nodes", "give them with *NODE");
+    }
+    if reader.deck.elements.is_empty() && messages.sound() {
+        let help = "give them with *ELEMENT, TYPE=...";
+        messages.error(end, "the deck has no elements", help);
+    }
+    if reader.position.in_step {
+        step::step_without_procedure(&mut reader);
+        let place = reader.deck.steps.last().map_or(end, |s| s.place);
+        let message = "the last step has no *END STEP";
+        reader.messages.warn(place, message, "");
+    }
+    reader.deck.numbering.clone_from(&reader.scope.numbering);
+    names::check_names(&mut reader);
+    reader.deck.unused = unused::unused(reader.source);
+    if !reader.messages.sound() {
+        let findings = reader.messages.verdict();
+        return Err(DeckError { findings });
+    }
+    reader.deck.notes = reader.messages.notes;
+    Ok(reader.deck)
+}
 
-    /// The row of a card that is read; says what is to be said of others.
-    fn row(&mut self, card: &Card) -> Option<&'static Row> {
-        let Some(row) = table::row(&card.keyword) else {
-            let help = match table::nearest(&card.keyword) {
-                Some(name) => format!("did you mean *{name}? (blanks and case do not matter)"),
-                None => "it is no keyword of CalculiX or Abaqus that stickslip knows; comments begin with **".into(),
-            };
-            let message = format!("unknown keyword {}", card.written);
-            self.messages.formal.insert(card.place);
-            self.error(card.place, message, &help);
-            return None;
+/// The row of a card that is read; says what is to be said of others.
+fn row(reader: &mut Reader, card: &Card) -> Option<&'static Row> {
+    let messages = &mut reader.messages;
+    let Some(row) = table::row(&card.keyword) else {
+        let help = match table::nearest(&card.keyword) {
+            Some(name) => format!("did you mean *{name}? (blanks and case do not matter)"),
+            None => "it is no keyword of CalculiX or Abaqus that stickslip knows; comments begin with **".into(),
         };
-        match row.fate {
-            Fate::Read => return Some(row),
-            Fate::Harmless(why) | Fate::Idle(why) => {
-                self.note(card.place, format!("{} is left out: {why}", card.written));
-            }
-            Fate::Refused(help) => {
-                // One finding a cause: the step has a procedure, if not one of ours.
-                self.position.procedure |= row.procedure;
-                self.card_beyond(card, help);
-            }
+        let message = format!("unknown keyword {}", card.written);
+        messages.misspelt(card.place);
+        messages.error(card.place, message, &help);
+        return None;
+    };
+    match row.fate {
+        Fate::Read => return Some(row),
+        Fate::Harmless(why) | Fate::Idle(why) => {
+            messages.note(card.place, format!("{} is left out: {why}", card.written));
         }
-        None
+        Fate::Refused(help) => {
+            // One finding a cause: the step has a procedure, if not one of ours.
+            reader.position.procedure |= row.procedure;
+            let kind = table::kind_of_card(&card.keyword, help);
+            messages.card_beyond(card, kind, help);
+        }
     }
+    None
+}
 
-    fn card(&mut self, card: &Card) {
-        if self.messages.stopped {
-            return;
+fn read_card(reader: &mut Reader, card: &Card) {
+    if reader.messages.stopped {
+        return;
+    }
+    let Some(row) = row(reader, card) else {
+        return;
+    };
+    let sound = judge::judge(&mut reader.messages, card, row);
+    instances::close_before(reader, card, row.level);
+    if !instances::in_its_place(reader, card, row.level, row.beneath) {
+        return;
+    }
+    if reader.structure.incomplete && row.level != Level::Structure {
+        return;
+    }
+    if !row.beneath {
+        reader.position.context = Context::None;
+    }
+    if !(sound || row.kept) {
+        // What follows builds on what is not there.
+        if card.keyword == "RESTART" {
+            reader.messages.stop(card.place);
         }
-        let Some(row) = self.row(card) else {
-            return;
-        };
-        let sound = self.judge(card, row);
-        self.close_before(card, row);
-        if !self.in_its_place(card, row) {
-            return;
-        }
-        if self.structure.incomplete && row.level != Level::Structure {
-            return;
-        }
-        if !row.beneath {
-            self.position.context = Context::None;
-        }
-        if !(sound || row.kept) {
-            // What follows builds on what is not there.
-            self.messages.stopped = card.keyword == "RESTART";
-            if self.messages.stopped {
-                self.messages.beyond.clear();
-                self.messages.errors.retain(|f| f.line == card.place.line);
-            }
-            return;
-        }
-        if self.record(row) {
-            return;
-        }
-        if let Some(read) = row.reader {
-            read(self, card);
+        return;
+    }
+    if instances::record(&mut reader.structure, row.level) {
+        return;
+    }
+    if let Some(read) = row.reader {
+        read(reader, card);
+        read_part(reader);
+    }
+}
+
+/// Reads the cards of a part for the instance that has been opened.
+fn read_part(reader: &mut Reader) {
+    let Some(name) = reader.structure.due.take() else {
+        return;
+    };
+    let part = &reader.structure.parts[&name];
+    reader.messages.again = part.instances > 1;
+    for i in part.cards.clone() {
+        let card = &reader.source.cards[i];
+        if let Some(read) = table::row(&card.keyword).and_then(|r| r.reader) {
+            read(reader, card);
         }
     }
+    reader.messages.again = false;
+    // Axes of the part are not those of what the instance adds.
+    reader.system = Motion::NONE;
 }

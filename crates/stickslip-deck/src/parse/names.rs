@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::known::{absent, listing};
+use super::orientation;
 use super::reader::Reader;
 use crate::card::Place;
 use crate::deck::{Action, Adjust, Boundary, Deck, Distributed, Target, Temperature, Tied};
@@ -13,51 +14,49 @@ struct Missing<'a> {
     found: Vec<(Place, String, String)>,
 }
 
-impl Reader<'_> {
-    /// Looks all names up.
-    pub(super) fn check_names(&mut self) {
-        self.settle_orientations();
-        self.settle_distributions();
-        let mut missing = Missing {
-            deck: &self.deck,
-            found: Vec::new(),
-        };
-        missing.nodes();
-        missing.surfaces();
-        missing.sections();
-        missing.actions();
-        let mut said = BTreeSet::new();
-        for (place, message, help) in missing.found {
-            // What a part lacks its instances lack as well.
-            if said.insert((place, self.without_instances(&message))) {
-                self.error(place, message, &help);
-            }
+/// Looks all names up.
+pub(super) fn check_names(reader: &mut Reader) {
+    settle_orientations(reader);
+    orientation::settle_distributions(reader);
+    let messages = &mut reader.messages;
+    let mut missing = Missing {
+        deck: &reader.deck,
+        found: Vec::new(),
+    };
+    missing.nodes();
+    missing.surfaces();
+    missing.sections();
+    missing.actions();
+    let mut said = BTreeSet::new();
+    for (place, message, help) in missing.found {
+        // What a part lacks its instances lack as well.
+        if said.insert((place, reader.scope.without_instances(&message))) {
+            messages.error(place, message, &help);
         }
-        self.sort_errors();
     }
+    messages.sort_errors();
 }
 
-impl Reader<'_> {
-    /// Sections of an instance have the orientation of the instance, or one of the model.
-    fn settle_orientations(&mut self) {
-        let deck = &mut self.deck;
-        let sections = deck
-            .properties
-            .sections
-            .iter_mut()
-            .filter_map(|s| s.orientation.as_mut());
-        let couplings = deck
-            .connectors
-            .couplings
-            .iter_mut()
-            .filter_map(|c| c.orientation.as_mut());
-        for o in sections.chain(couplings) {
-            let bare = deck.numbering.bare(o);
-            if !deck.properties.orientations.contains_key(o)
-                && deck.properties.orientations.contains_key(bare)
-            {
-                *o = bare.to_string();
-            }
+/// Sections of an instance have the orientation of the instance, or one of the model.
+fn settle_orientations(reader: &mut Reader) {
+    let sections = reader
+        .deck
+        .properties
+        .sections
+        .iter_mut()
+        .filter_map(|s| s.orientation.as_mut());
+    let couplings = reader
+        .deck
+        .connectors
+        .couplings
+        .iter_mut()
+        .filter_map(|c| c.orientation.as_mut());
+    for o in sections.chain(couplings) {
+        let bare = reader.scope.numbering.bare(o);
+        if !reader.deck.properties.orientations.contains_key(o)
+            && reader.deck.properties.orientations.contains_key(bare)
+        {
+            *o = bare.to_string();
         }
     }
 }

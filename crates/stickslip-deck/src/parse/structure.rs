@@ -27,7 +27,6 @@ pub(super) struct OpenInstance {
 /// `*ASSEMBLY`.
 #[derive(Debug)]
 pub(super) struct Assembly {
-    pub name: String,
     pub open: bool,
     pub place: Place,
 }
@@ -42,12 +41,10 @@ pub(super) struct Structure {
     pub part: Option<(String, Part)>,
     pub assembly: Option<Assembly>,
     pub instance: Option<OpenInstance>,
-    /// Where instances are put, by index.
-    pub motions: Vec<Motion>,
+    /// The part whose cards are to be read for the instance.
+    pub due: Option<String>,
     /// Lines that have been read for instances.
     pub lines: usize,
-    /// A part is read for another instance: what is to be said of its cards has been said.
-    pub again: bool,
     /// The card above stands where it must not, and what belongs to it with it.
     pub misplaced: bool,
     /// An instance lacks its mesh: what refers to it means nothing.

@@ -1,8 +1,7 @@
 //! Interactions, contact pairs and ties.
 
 use super::row::{Data, NUMERICS, Row, SUBROUTINE, card, harmless, harmless_card, read, refused};
-use crate::parse::reader::Context;
-use crate::parse::structure::Level;
+use crate::parse::{interaction, pairs, reader::Context, structure::Level};
 
 const EXACT: &str = "hard contact and sticking are exact here, which is what it approximates";
 const HEAT: &str = "temperatures are not computed, and what would change them is refused";
@@ -12,7 +11,7 @@ const TIE: &str = "only surfaces that stay together are tied; *EQUATION ties nod
 pub(super) const ROWS: &[Row] = &[
     card(
         "SURFACEINTERACTION",
-        |r, c| r.interaction(c),
+        interaction::interaction,
         Data::Line("thickness"),
         &[
             read("NAME"),
@@ -29,7 +28,7 @@ pub(super) const ROWS: &[Row] = &[
     ).kept(),
     card(
         "SURFACEBEHAVIOR",
-        |r, c| r.behavior(c),
+        interaction::behavior,
         Data::Any,
         &[
             read("PRESSURE-OVERCLOSURE"),
@@ -41,7 +40,7 @@ pub(super) const ROWS: &[Row] = &[
     ).beneath(),
     card(
         "FRICTION",
-        |r, c| r.friction(c),
+        interaction::friction,
         Data::Any,
         &[
             read("TAUMAX"),
@@ -67,7 +66,7 @@ pub(super) const ROWS: &[Row] = &[
     ).beneath(),
     card(
         "CHANGEFRICTION",
-        |r, c| { r.change(c, Context::ChangeFriction) },
+        |r, c| interaction::change(r, c, Context::ChangeFriction),
         Data::Nothing,
         &[
             read("INTERACTION"),
@@ -80,7 +79,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "CHANGESURFACEBEHAVIOR",
-        |r, c| { r.change(c, Context::ChangeBehavior) },
+        |r, c| interaction::change(r, c, Context::ChangeBehavior),
         Data::Nothing,
         &[
             read("INTERACTION"),
@@ -89,13 +88,13 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "CONTACTDAMPING",
-        |r, c| r.contact_damping(c),
+        interaction::contact_damping,
         Data::Line("damping coefficient"),
         &[read("DEFINITION"), read("TANGENTFRACTION")],
     ).beneath(),
     card(
         "CONTACTPAIR",
-        |r, c| r.contact_pair(c),
+        pairs::contact_pair,
         Data::Lines("slave surface, master surface"),
         &[
             read("INTERACTION"),
@@ -129,7 +128,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "MODELCHANGE",
-        |r, c| r.model_change(c),
+        pairs::model_change,
         Data::Any,
         &[
             read("TYPE"),
@@ -147,7 +146,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "CLEARANCE",
-        |r, c| r.clearance(c),
+        pairs::clearance,
         Data::Nothing,
         &[
             read("MASTER"),
@@ -163,7 +162,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "TIE",
-        |r, c| r.tie(c),
+        pairs::tie,
         Data::Lines("slave surface, master surface"),
         &[
             read("NAME"),

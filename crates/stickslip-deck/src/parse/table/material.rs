@@ -1,7 +1,7 @@
 //! Materials and sections.
 
 use super::row::{Data, Row, SUBROUTINE, card, harmless, harmless_card, idle, read, refused};
-use crate::parse::structure::Level;
+use crate::parse::{material, orientation, structure::Level};
 
 const HEAT: &str = "temperatures are given, not computed: heat does not flow";
 const CONSTANT: &str = "constants depend on temperature only";
@@ -9,7 +9,7 @@ const CONSTANT: &str = "constants depend on temperature only";
 pub(super) const ROWS: &[Row] = &[
     card(
         "MATERIAL",
-        |r, c| r.material(c),
+        material::material,
         Data::Nothing,
         &[
             read("NAME"),
@@ -23,7 +23,7 @@ pub(super) const ROWS: &[Row] = &[
     .kept(),
     card(
         "ELASTIC",
-        |r, c| r.elastic(c),
+        material::elastic,
         Data::Any,
         &[
             read("TYPE"),
@@ -37,14 +37,14 @@ pub(super) const ROWS: &[Row] = &[
     .beneath(),
     card(
         "DENSITY",
-        |r, c| r.density(c),
+        material::density,
         Data::Lines("density, temperature"),
         &[refused("DEPENDENCIES", CONSTANT)],
     )
     .beneath(),
     card(
         "DAMPING",
-        |r, c| r.damping(c),
+        material::damping,
         Data::Nothing,
         &[
             read("ALPHA"),
@@ -59,7 +59,7 @@ pub(super) const ROWS: &[Row] = &[
     .beneath(),
     card(
         "EXPANSION",
-        |r, c| r.expansion(c),
+        material::expansion,
         Data::Any,
         &[
             read("TYPE"),
@@ -93,7 +93,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "SOLIDSECTION",
-        |r, c| r.solid_section(c),
+        material::solid_section,
         Data::Line("thickness"),
         &[
             read("ELSET"),
@@ -144,7 +144,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "DISTRIBUTION",
-        |r, c| r.distribution(c),
+        orientation::distribution,
         Data::Any,
         &[
             read("NAME"),
@@ -155,14 +155,14 @@ pub(super) const ROWS: &[Row] = &[
     .at(Level::Mesh),
     card(
         "DISTRIBUTIONTABLE",
-        |r, c| r.distribution_table(c),
+        orientation::distribution_table,
         Data::Any,
         &[read("NAME")],
     )
     .at(Level::Mesh),
     card(
         "ORIENTATION",
-        |r, c| r.orientation(c),
+        orientation::orientation,
         Data::Lines("ax, ay, az, bx, by, bz, cx, cy, cz"),
         &[
             read("NAME"),

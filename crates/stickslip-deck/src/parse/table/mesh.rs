@@ -4,7 +4,10 @@ use super::row::{
     Data, Fate, INPUT, Row, SUBROUTINE, card, harmless, harmless_card, idle, read, refused,
 };
 use crate::deck::Way;
-use crate::parse::structure::Level;
+use crate::parse::{
+    couplings, elements, generate, generate_elements, initial, instances, links, nodes, sets, step,
+    structure::Level, surfaces, times,
+};
 
 const IMPORT: &str =
     "results of other runs are not read: give the part, and its nodes and elements, in this deck";
@@ -12,17 +15,17 @@ const IMPORT: &str =
 pub(super) const ROWS: &[Row] = &[
     Row {
         others: Some(Fate::Idle("the title is a name")),
-        ..card("HEADING", |r, c| r.heading(c), Data::Any, &[])
+        ..card("HEADING", |r, c| step::heading(&mut r.deck, c), Data::Any, &[])
     },
-    card("PART", |r, c| r.part(c), Data::Nothing, &[read("NAME")]).at(Level::Structure).kept(),
-    card("ENDPART", |r, c| r.end_part(c), Data::Nothing, &[]).at(Level::Structure).kept(),
-    card("ASSEMBLY", |r, c| r.assembly(c), Data::Nothing, &[read("NAME")])
+    card("PART", instances::part, Data::Nothing, &[read("NAME")]).at(Level::Structure).kept(),
+    card("ENDPART", instances::end_part, Data::Nothing, &[]).at(Level::Structure).kept(),
+    card("ASSEMBLY", instances::assembly, Data::Nothing, &[read("NAME")])
         .at(Level::Structure)
         .kept(),
-    card("ENDASSEMBLY", |r, c| r.end_assembly(c), Data::Nothing, &[]).at(Level::Structure).kept(),
+    card("ENDASSEMBLY", instances::end_assembly, Data::Nothing, &[]).at(Level::Structure).kept(),
     card(
         "INSTANCE",
-        |r, c| r.instance(c),
+        instances::instance,
         Data::Any,
         &[
             read("NAME"),
@@ -31,18 +34,18 @@ pub(super) const ROWS: &[Row] = &[
             refused("INSTANCE", IMPORT),
         ],
     ).at(Level::Structure).kept(),
-    card("ENDINSTANCE", |r, c| r.end_instance(c), Data::Nothing, &[]).at(Level::Structure).kept(),
-    card("SYSTEM", |r, c| r.system(c), Data::Lines("x, y, z, x, y, z"), &[]).at(Level::Mesh),
+    card("ENDINSTANCE", instances::end_instance, Data::Nothing, &[]).at(Level::Structure).kept(),
+    card("SYSTEM", nodes::system, Data::Lines("x, y, z, x, y, z"), &[]).at(Level::Mesh),
     card(
         "NODE",
-        |r, c| r.nodes(c),
+        nodes::nodes,
         // Directions of normals are for shells and beams.
         Data::Lines("node, x, y, z, normal x, normal y, normal z"),
         &[read("NSET"), read("SYSTEM"), INPUT],
     ).at(Level::Mesh).kept(),
     card(
         "ELEMENT",
-        |r, c| r.elements(c),
+        elements::elements,
         Data::Any,
         &[
             read("TYPE"),
@@ -57,7 +60,7 @@ pub(super) const ROWS: &[Row] = &[
     ).at(Level::Mesh).kept(),
     card(
         "NGEN",
-        |r, c| r.generate_nodes(c),
+        generate::generate_nodes,
         Data::Lines(
             "first node, last node, increment, node of the curve, x, y, z, normal x, normal y, normal z",
         ),
@@ -65,7 +68,7 @@ pub(super) const ROWS: &[Row] = &[
     ).at(Level::Mesh).kept(),
     card(
         "NFILL",
-        |r, c| r.fill_nodes(c),
+        generate::fill_nodes,
         Data::Lines("first set, second set, number of intervals, increment"),
         &[
             read("NSET"),
@@ -79,7 +82,7 @@ pub(super) const ROWS: &[Row] = &[
     ).at(Level::Mesh).kept(),
     card(
         "NCOPY",
-        |r, c| r.copy_nodes(c),
+        generate::copy_nodes,
         Data::Lines("x, y, z, x, y, z, angle"),
         &[
             read("OLDSET"),
@@ -99,7 +102,7 @@ pub(super) const ROWS: &[Row] = &[
     ).at(Level::Mesh).kept(),
     card(
         "ELGEN",
-        |r, c| r.generate_elements(c),
+        generate_elements::generate_elements,
         Data::Lines(
             "element, number in a row, increment of nodes, increment of elements, rows, increment of nodes, increment of elements, layers, increment of nodes, increment of elements",
         ),
@@ -110,7 +113,7 @@ pub(super) const ROWS: &[Row] = &[
     ).at(Level::Mesh).kept(),
     card(
         "ELCOPY",
-        |r, c| r.copy_elements(c),
+        generate_elements::copy_elements,
         Data::Nothing,
         &[
             read("OLDSET"),
@@ -122,7 +125,7 @@ pub(super) const ROWS: &[Row] = &[
     ).at(Level::Mesh).kept(),
     card(
         "NSET",
-        |r, c| r.node_set(c),
+        sets::node_set,
         Data::Any,
         &[
             read("NSET"),
@@ -140,7 +143,7 @@ pub(super) const ROWS: &[Row] = &[
     ).at(Level::Mesh).kept(),
     card(
         "ELSET",
-        |r, c| r.element_set(c),
+        sets::element_set,
         Data::Any,
         &[
             read("ELSET"),
@@ -153,7 +156,7 @@ pub(super) const ROWS: &[Row] = &[
     ).at(Level::Mesh).kept(),
     card(
         "SURFACE",
-        |r, c| r.surface(c),
+        surfaces::surface,
         Data::Lines("element or set of elements or node, face"),
         &[
             read("NAME"),
@@ -170,7 +173,7 @@ pub(super) const ROWS: &[Row] = &[
     ).at(Level::Mesh).kept(),
     card(
         "TRANSFORM",
-        |r, c| r.transform(c),
+        nodes::transform,
         Data::Line("ax, ay, az, bx, by, bz"),
         &[read("NSET"), read("TYPE")],
     ).at(Level::Mesh),
@@ -180,13 +183,13 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "EQUATION",
-        |r, c| r.equation(c),
+        links::equation,
         Data::Any,
         &[read("REMOVE"), read("REMOVEALL"), INPUT],
     ).at(Level::Mesh),
     card(
         "RIGIDBODY",
-        |r, c| r.rigid_body(c),
+        links::rigid_body,
         Data::Nothing,
         &[
             read("NSET"),
@@ -211,7 +214,7 @@ pub(super) const ROWS: &[Row] = &[
     ).at(Level::Mesh),
     card(
         "PRE-TENSIONSECTION",
-        |r, c| r.pretension(c),
+        links::pretension,
         Data::Line("nx, ny, nz"),
         &[
             read("SURFACE"),
@@ -224,7 +227,7 @@ pub(super) const ROWS: &[Row] = &[
     ).at(Level::Mesh),
     card(
         "COUPLING",
-        |r, c| r.coupling(c),
+        couplings::coupling,
         Data::Nothing,
         &[
             read("CONSTRAINTNAME"),
@@ -240,13 +243,13 @@ pub(super) const ROWS: &[Row] = &[
     ).at(Level::Mesh),
     card(
         "KINEMATIC",
-        |r, c| r.way(c, Way::Kinematic),
+        |r, c| couplings::way(r, c, Way::Kinematic),
         Data::Lines("first direction, last direction"),
         &[],
     ).at(Level::Mesh),
     card(
         "DISTRIBUTING",
-        |r, c| r.way(c, Way::Distributing),
+        |r, c| couplings::way(r, c, Way::Distributing),
         Data::Lines("first direction, last direction"),
         &[
             read("WEIGHTINGMETHOD"),
@@ -255,19 +258,19 @@ pub(super) const ROWS: &[Row] = &[
     ).at(Level::Mesh),
     card(
         "KINEMATICCOUPLING",
-        |r, c| r.kinematic_coupling(c),
+        couplings::kinematic_coupling,
         Data::Lines("node or set of nodes, first direction, last direction"),
         &[read("REFNODE"), read("ORIENTATION")],
     ).at(Level::Mesh),
     card(
         "DISTRIBUTINGCOUPLING",
-        |r, c| r.distributing_coupling(c),
+        couplings::distributing_coupling,
         Data::Lines("node or set of nodes, weight"),
         &[read("ELSET")],
     ).at(Level::Mesh),
     card(
         "MPC",
-        |r, c| r.multi_point(c),
+        couplings::multi_point,
         Data::Any,
         &[
             refused("USER", SUBROUTINE),
@@ -277,7 +280,7 @@ pub(super) const ROWS: &[Row] = &[
     ).at(Level::Mesh),
     card(
         "SPRING",
-        |r, c| r.spring(c),
+        links::spring,
         Data::Any,
         &[
             read("ELSET"),
@@ -292,7 +295,7 @@ pub(super) const ROWS: &[Row] = &[
     ).at(Level::Mesh),
     card(
         "DASHPOT",
-        |r, c| r.spring(c),
+        links::spring,
         Data::Any,
         &[
             read("ELSET"),
@@ -306,13 +309,13 @@ pub(super) const ROWS: &[Row] = &[
     ).at(Level::Mesh),
     card(
         "GAP",
-        |r, c| r.gap(c),
+        links::gap,
         Data::Line("clearance, x, y, z, area, stiffness, tension"),
         &[read("ELSET")],
     ).at(Level::Mesh),
     card(
         "MASS",
-        |r, c| r.mass(c),
+        links::mass,
         Data::Line("mass"),
         &[
             read("ELSET"),
@@ -324,7 +327,7 @@ pub(super) const ROWS: &[Row] = &[
     ).at(Level::Mesh),
     card(
         "INITIALCONDITIONS",
-        |r, c| r.initial_conditions(c),
+        initial::initial_conditions,
         Data::Lines("node or set of nodes, direction or temperature, value"),
         &[
             read("TYPE"),
@@ -346,7 +349,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "AMPLITUDE",
-        |r, c| r.amplitude(c),
+        times::amplitude,
         Data::Any,
         &[
             read("NAME"),
@@ -364,9 +367,9 @@ pub(super) const ROWS: &[Row] = &[
     ).kept(),
     card(
         "TIMEPOINTS",
-        |r, c| r.time_points(c),
+        times::time_points,
         Data::Any,
         &[read("NAME"), read("GENERATE"), read("TIME")],
     ),
-    card("NORMAL", |r, c| r.normal(c), Data::Any, &[read("TYPE")]).at(Level::Mesh),
+    card("NORMAL", |r, c| nodes::normal(&mut r.messages, c), Data::Any, &[read("TYPE")]).at(Level::Mesh),
 ];

@@ -1,6 +1,7 @@
 //! What is printed and written.
 
 use super::row::{Data, Fate, Parameter, Row, card, harmless, harmless_card, idle, read, refused};
+use crate::parse::output;
 
 const VIEW: &str = "it only chooses what is written";
 
@@ -11,14 +12,14 @@ const WHEN: &[Parameter] = &[read("FREQUENCY"), read("FREQUENCYF"), read("TIMEPO
 const fn fields(keyword: &'static str) -> Row {
     Row {
         others: Some(Fate::Idle(VIEW)),
-        ..card(keyword, |r, c| r.output(c), Data::Any, WHEN)
+        ..card(keyword, output::output, Data::Any, WHEN)
     }
 }
 
 pub(super) const ROWS: &[Row] = &[
     card(
         "NODEPRINT",
-        |r, c| r.print(c),
+        output::print,
         Data::Any,
         &[
             read("NSET"),
@@ -32,7 +33,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "ELPRINT",
-        |r, c| r.print(c),
+        output::print,
         Data::Any,
         &[
             read("ELSET"),
@@ -50,7 +51,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "CONTACTPRINT",
-        |r, c| r.print(c),
+        output::print,
         Data::Any,
         &[
             read("SLAVE"),
@@ -74,7 +75,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "SECTIONPRINT",
-        |r, c| r.section_print(c),
+        output::section_print,
         Data::Any,
         &[
             read("SURFACE"),

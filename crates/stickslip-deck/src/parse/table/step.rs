@@ -3,6 +3,7 @@
 use super::row::{
     Data, NUMERICS, Row, SUBROUTINE, card, harmless, harmless_card, idle, read, refused,
 };
+use crate::parse::{harmonic, initial, loads, material_motion, step};
 
 const FLUID: &str = "it is about fluids, and bodies are solid";
 const SUBMODEL: &str =
@@ -20,7 +21,7 @@ const ACCURACY: &str = "it controls the lengths of increments; those are sticksl
 pub(super) const ROWS: &[Row] = &[
     card(
         "STEP",
-        |r, c| r.step(c),
+        step::step,
         Data::Any,
         &[
             read("NLGEOM"),
@@ -40,10 +41,10 @@ pub(super) const ROWS: &[Row] = &[
             read("PERTURBATION"),
         ],
     ).kept(),
-    card("ENDSTEP", |r, c| r.end_step(c), Data::Nothing, &[]),
+    card("ENDSTEP", step::end_step, Data::Nothing, &[]),
     card(
         "STATIC",
-        |r, c| r.statics(c),
+        step::statics,
         Data::Line("first increment, period, smallest increment, largest increment"),
         &[
             read("DIRECT"),
@@ -74,7 +75,7 @@ pub(super) const ROWS: &[Row] = &[
     ).kept(),
     card(
         "DYNAMIC",
-        |r, c| r.dynamics(c),
+        step::dynamics,
         Data::Line("first increment, period, smallest increment, largest increment"),
         &[
             read("DIRECT"),
@@ -104,7 +105,7 @@ pub(super) const ROWS: &[Row] = &[
     ).kept(),
     card(
         "FREQUENCY",
-        |r, c| r.frequency(c),
+        step::frequency,
         Data::Any,
         &[
             idle("SOLVER", NUMERICS),
@@ -121,7 +122,7 @@ pub(super) const ROWS: &[Row] = &[
     ).kept(),
     card(
         "COMPLEXFREQUENCY",
-        |r, c| r.complex_frequency(c),
+        step::complex_frequency,
         Data::Line("number of modes, lowest frequency, highest frequency, shift"),
         &[
             read("FRICTIONDAMPING"),
@@ -144,7 +145,7 @@ pub(super) const ROWS: &[Row] = &[
     ).kept(),
     card(
         "STEADYSTATEDYNAMICS",
-        |r, c| r.steady_state(c),
+        harmonic::steady_state,
         Data::Line("lowest frequency, highest frequency, number of points, bias"),
         &[
             read("INTERVAL"),
@@ -167,7 +168,7 @@ pub(super) const ROWS: &[Row] = &[
     ).kept(),
     card(
         "MODALDAMPING",
-        |r, c| r.modal_damping(c),
+        harmonic::modal_damping,
         Data::Any,
         &[
             read("RAYLEIGH"),
@@ -182,7 +183,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "MOTION",
-        |r, c| r.material_motion(c),
+        material_motion::material_motion,
         Data::Any,
         &[
             read("ROTATION"),
@@ -202,7 +203,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "BOUNDARY",
-        |r, c| r.boundary(c),
+        loads::boundary,
         Data::Lines("node or set of nodes, first direction, last direction, value"),
         &[
             read("OP"),
@@ -222,7 +223,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "CLOAD",
-        |r, c| r.forces(c),
+        loads::forces,
         Data::Lines("node or set of nodes, direction, force"),
         &[
             read("OP"),
@@ -243,7 +244,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "TEMPERATURE",
-        |r, c| r.temperature(c),
+        initial::temperature,
         Data::Lines("node or set of nodes, temperature"),
         &[
             read("OP"),
@@ -265,7 +266,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "DLOAD",
-        |r, c| r.distributed(c),
+        loads::distributed,
         Data::Lines("elements, kind, value, x, y, z, dx, dy, dz"),
         &[
             read("OP"),
@@ -289,7 +290,7 @@ pub(super) const ROWS: &[Row] = &[
     ),
     card(
         "DSLOAD",
-        |r, c| r.surface_loads(c),
+        loads::surface_loads,
         Data::Lines("surface, kind, value"),
         &[
             read("OP"),

@@ -71,7 +71,6 @@ const CIRCULAR: &[&str] = &[];
 const SPREAD: &[(&str, usize)] = &[
     ("deck::Deck", 3),
     ("linear::engine::mumps::body::Body", 3),
-    ("parse::reader::Reader", 27),
     ("problem::data::Problem", 3),
     ("problem::expected::Expected", 2),
     ("results::Results", 2),
