@@ -24,7 +24,7 @@ impl Default for GmresSettings {
 }
 
 /// Part of the tolerance that all errors of inexact products may take together.
-const ERRORS: f64 = 0.1;
+const INEXACT_PRODUCTS: f64 = 0.1;
 
 /// `product(v, out, error)` makes `out = A v` with an error that is not above `error` times the product.
 pub type Product<'a> = dyn FnMut(&[f64], &mut [f64], f64) + 'a;
@@ -78,7 +78,7 @@ pub fn gmres_inexact(
     settings: GmresSettings,
 ) -> GmresReport {
     let n = b.len();
-    let exact = ERRORS * settings.tolerance;
+    let exact = INEXACT_PRODUCTS * settings.tolerance;
     assert_eq!(x.len(), n, "length of the guess");
     let b_norm = norm(b);
     let mut report = GmresReport {
@@ -148,7 +148,7 @@ fn cycle(
         precondition(&mut z);
         let mut w = vec![0.0; n];
         let left = rhs[taken].abs();
-        apply(&z, &mut w, ERRORS * target / left);
+        apply(&z, &mut w, INEXACT_PRODUCTS * target / left);
         taken += 1;
 
         let before = norm(&w);

@@ -1,11 +1,12 @@
 //! Least squares with coefficients that are not negative.
 
+use crate::tolerance::ROUNDING;
+
 use super::symmetric_eigen;
 use super::vector::{dot, norm};
 
-/// Part of the sizes below which a column is rounding or does not help, and of the largest eigenvalue below which one is none.
+/// Part of the sizes below which a column is rounding or does not help.
 const NO_HELP: f64 = 1e-10;
-const NO_EIGENVALUE: f64 = 1e-12;
 
 /// Most changes of the active set, a row.
 const MOST: usize = 60;
@@ -73,7 +74,7 @@ fn least_squares(columns: &[Vec<f64>], active: &[usize], target: &[f64]) -> Vec<
     let gram: Vec<Vec<f64>> = active.iter().map(row).collect();
     let right: Vec<f64> = active.iter().map(|a| dot(of(a), target)).collect();
     let (values, vectors) = symmetric_eigen(&gram);
-    let least = NO_EIGENVALUE * values.last().copied().unwrap_or(0.0);
+    let least = ROUNDING * values.last().copied().unwrap_or(0.0);
     let mut out = vec![0.0; active.len()];
     for (k, value) in values.iter().enumerate().filter(|(_, v)| **v > least) {
         let along: f64 = right.iter().zip(&vectors).map(|(r, v)| r * v[k]).sum();

@@ -14,11 +14,9 @@ pub struct GaussSeidel {
 /// Sweeps between two looks at the error, which costs as much as a sweep.
 const LOOK: usize = 10;
 
-/// Looks after which it must have fallen to a part of what it was, or the sweeps gain nothing; where there are more sweeps, a tenth of them.
+/// Looks after which the error must have fallen to 0.9 of what it was, or the sweeps gain nothing; where there are more sweeps, a tenth of
+/// them.
 const PATIENCE: usize = 10;
-
-/// That part.
-const GAIN: f64 = 0.9;
 
 impl FrictionSolver for GaussSeidel {
     fn name(&self) -> &'static str {
@@ -46,7 +44,8 @@ impl FrictionSolver for GaussSeidel {
             best.see(&forces, problem.error(&forces));
             seen.push(best.error());
             let gains = match seen.len().checked_sub(patience + 1) {
-                Some(before) => best.error() <= GAIN * seen[before],
+                // The part to which the error must have fallen.
+                Some(before) => best.error() <= 0.9 * seen[before],
                 None => true,
             };
             if best.error() <= tolerance || !gains {

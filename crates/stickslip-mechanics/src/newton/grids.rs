@@ -36,17 +36,10 @@ const MOST: usize = 200;
 const RESTART: usize = 60;
 
 /// Part of a facet that points may move along it before the finest level is made anew: stiff contact feels it.
-const DRIFT: f64 = 0.03;
+const FINEST_LEVEL_DRIFT: f64 = 0.03;
 
 /// The same where the iteration has become slow.
-const SMALL_DRIFT: f64 = 1e-3;
-
-/// Part of the stiffnesses that are no gap stiffnesses that may change before the hierarchy is made anew. What single points do, one that opens or comes to lie
-/// on another facet, costs single iterations, and a hierarchy as many as a whole solution.
-const CHANGE: f64 = 0.1;
-
-/// Resistance to a rigid motion, relative to the diagonals, below which a body counts as floating.
-const FLOATING: f64 = 1e-8;
+const SLOW_DRIFT: f64 = 1e-3;
 
 /// A hierarchy that outlives the state it was made at.
 ///
@@ -339,7 +332,13 @@ impl Grids {
             _ => return self.set_up(operator, statistics),
         };
         let drift = drift(operator, &made.gaps);
-        if drift > if made.slow { SMALL_DRIFT } else { DRIFT } {
+        if drift
+            > if made.slow {
+                SLOW_DRIFT
+            } else {
+                FINEST_LEVEL_DRIFT
+            }
+        {
             let gaps = variables(operator);
             if !gaps.points().eq(made.gaps.points()) {
                 return self.set_up(operator, statistics);
@@ -531,7 +530,9 @@ fn is_gap_stiffness(
         .iter()
         .filter(|dof| !operator.fixed[**dof]);
     let near = drifts.get(&point).map_or(&[][..], |list| list.as_slice());
-    let mut near = near.iter().filter(|(drift, _)| *drift <= DRIFT);
+    let mut near = near
+        .iter()
+        .filter(|(drift, _)| *drift <= FINEST_LEVEL_DRIFT);
     match near.next() {
         Some((_, pair)) => others.all(|dof| pair.facet.iter().any(|(p, _)| *p == dof / dim)),
         None => others.next().is_none(),
@@ -579,7 +580,9 @@ fn changed(before: &BTreeMap<usize, f64>, now: &Groups) -> bool {
     let apart = |point: &usize| (at(&now, *point) - at(before, *point)).abs();
     let apart: f64 = now.keys().chain(gone).map(apart).sum();
     let whole: f64 = now.values().chain(before.values()).sum();
-    apart > CHANGE * whole
+    // Part of the stiffnesses that are no gap stiffnesses that may change before the hierarchy is made anew. What single points do, one
+    // that opens or comes to lie on another facet, costs single iterations, and a hierarchy as many as a whole solution.
+    apart > 0.1 * whole
 }
 
 /// The matrix in gap variables.
@@ -609,7 +612,8 @@ fn floats(operator: Operator, points: &BodyPoints) -> bool {
             cost[body] += out[dof];
             scale[body] += diagonal[dof];
         }
-        cost.iter().zip(&scale).any(|(c, s)| c.abs() < FLOATING * s)
+        // A body that resists a rigid motion by less than this part of the diagonals counts as floating.
+        cost.iter().zip(&scale).any(|(c, s)| c.abs() < 1e-8 * s)
     })
 }
 

@@ -37,9 +37,6 @@ const BLOCK: usize = 4;
 /// Blocks between two looks at what has converged.
 const LOOK: usize = 4;
 
-/// Part of a vector that has to be left after orthogonalisation to count as a new direction.
-const DEPENDENT: f64 = 1e-13;
-
 /// Eigenvalues of largest size, until `enough` says so of their values and residuals, largest first, or the space has `most` dimensions. Of a complex pair the one with
 /// a positive imaginary part is returned.
 ///
@@ -92,7 +89,8 @@ fn extend(q: &mut Vec<Vec<f64>>, vectors: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
             }
         }
         let left = dot(&w, &w).sqrt();
-        if left.is_finite() && left > DEPENDENT * size && left > f64::MIN_POSITIVE {
+        // Part of a vector that has to be left after orthogonalisation to count as a new direction.
+        if left.is_finite() && left > 1e-13 * size && left > f64::MIN_POSITIVE {
             column.push(left);
             w.iter_mut().for_each(|v| *v /= left);
             q.push(w);

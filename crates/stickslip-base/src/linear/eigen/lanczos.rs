@@ -7,9 +7,6 @@ use crate::math::vector::dot_in_fours as dot;
 /// Vectors of a block: modes that come as often as that are found together.
 const BLOCK: usize = 4;
 
-/// Part of a column that has to be left after orthogonalisation to count as a new direction.
-const DEPENDENT: f64 = 1e-10;
-
 /// Most passes, each from a start that is orthogonal to what is known.
 const MOST_PASSES: usize = 40;
 
@@ -316,7 +313,8 @@ fn orthonormal(
         }
         (pencil.mass)(&x, &mut mx);
         let norm = dot(&x, &mx).max(0.0).sqrt();
-        if norm > DEPENDENT * before && norm > f64::MIN_POSITIVE {
+        // Part of a column that has to be left after orthogonalisation to count as a new direction.
+        if norm > 1e-10 * before && norm > f64::MIN_POSITIVE {
             x.iter_mut().for_each(|v| *v /= norm);
             mx.iter_mut().for_each(|v| *v /= norm);
             column.push(norm);

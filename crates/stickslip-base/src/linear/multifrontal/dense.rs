@@ -25,9 +25,6 @@ const DEPTH: usize = 128;
 /// Columns of the root that one task adds to.
 const CHUNK: usize = 384;
 
-/// Fronts with less work stay in one task \[additions and multiplications\].
-const LARGE: f64 = 5e7;
-
 /// A contribution to be added: its order, the local rows of the front above, and its values.
 #[derive(Clone, Copy)]
 pub(super) struct Child<'a> {
@@ -37,7 +34,8 @@ pub(super) struct Child<'a> {
 
 /// Whether a front is large enough to be shared by tasks.
 pub(super) fn is_large(flops: f64) -> bool {
-    flops > LARGE
+    // Fronts with less work, in additions and multiplications, stay in one task.
+    flops > 5e7
 }
 
 /// Runs of targets that follow each other.

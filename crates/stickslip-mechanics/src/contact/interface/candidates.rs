@@ -14,7 +14,7 @@ use crate::contact::surface::ContactPoint;
 use crate::math::{Vec3, dot, mat_vec};
 
 /// Cosine of the angle up to which a surface looks where it looked in the reference configuration, for finding facets that look back.
-const UNTURNED: f64 = 0.95;
+const UNTURNED_COSINE: f64 = 0.95;
 
 /// Searches anew when the points have moved so far that a nearer facet might be missing from the candidates.
 pub(in crate::contact) fn update_candidates(
@@ -46,7 +46,7 @@ fn facing(definition: &InterfaceDefinition, x: &[Vec3]) -> Vec<Vec3> {
     };
     let normals: Vec<Vec3> = definition.points.iter().zip(&around).map(turned).collect();
     let mut pairs = normals.iter().zip(&definition.points);
-    match pairs.any(|(n, p)| dot(*n, p.normal) < UNTURNED) {
+    match pairs.any(|(n, p)| dot(*n, p.normal) < UNTURNED_COSINE) {
         true => normals,
         false => Vec::new(),
     }

@@ -12,14 +12,14 @@ use crate::system::{Culprit, Evidence, Tally};
 /// Most culprits of one interface.
 const MOST: usize = 10;
 
-/// Slip over an increment, relative to the facet, from which a point is a culprit although it keeps its status.
-const FAR: f64 = 0.5;
+/// Slip over an increment, relative to the facet, that is too large: such a point is a culprit although it keeps its status.
+const LARGE_SLIP: f64 = 0.5;
 
 /// Halvings by which a kink of the normal law is looked for.
 const HALVINGS: usize = 40;
 
 /// Ratio of slopes that counts as a kink.
-const KINK: f64 = 4.0;
+const SLOPE_RATIO_OF_KINK: f64 = 4.0;
 
 /// An interface in the present attempt.
 #[derive(Clone, Copy)]
@@ -129,8 +129,8 @@ pub(super) fn culprits(attempted: LastAttempt) -> Vec<Culprit> {
     let mut all: Vec<Evidence> = (0..attempted.cache.last.points.len())
         .map(|i| evidence_of(attempted, i))
         .filter(|e| {
-            let slid = e.facet > 0.0 && e.slip > FAR * e.facet;
-            e.flips > 0 || e.left > 0 || e.kink > KINK || slid
+            let slid = e.facet > 0.0 && e.slip > LARGE_SLIP * e.facet;
+            e.flips > 0 || e.left > 0 || e.kink > SLOPE_RATIO_OF_KINK || slid
         })
         .collect();
     // The sort is stable: points of equal guilt keep their order.
@@ -158,13 +158,13 @@ fn said(e: Evidence) -> Culprit {
     if e.left > 0 {
         what.push(format!("left the edge of the primary {} times", e.left));
     }
-    if e.facet > 0.0 && e.slip > FAR * e.facet {
+    if e.facet > 0.0 && e.slip > LARGE_SLIP * e.facet {
         what.push(format!(
             "slid over {:.2} facets in one increment",
             e.slip / e.facet
         ));
     }
-    if e.kink > KINK {
+    if e.kink > SLOPE_RATIO_OF_KINK {
         what.push(format!(
             "lies at a kink of the normal law, slopes 1 to {:.1}",
             e.kink
@@ -193,7 +193,7 @@ fn kink(law: &dyn NormalLaw, a: f64, b: f64) -> f64 {
         if low > 0.0 { high / low } else { 1.0 }
     };
     let (mut a, mut b) = (a, b);
-    if !(a.is_finite() && b.is_finite()) || ratio(a, b) <= KINK {
+    if !(a.is_finite() && b.is_finite()) || ratio(a, b) <= SLOPE_RATIO_OF_KINK {
         return 1.0;
     }
     // A smooth law has less and less of it in ever smaller intervals; a kink keeps all of it.
@@ -206,7 +206,7 @@ fn kink(law: &dyn NormalLaw, a: f64, b: f64) -> f64 {
         }
     }
     match ratio(a, b) {
-        kept if kept > KINK => kept,
+        kept if kept > SLOPE_RATIO_OF_KINK => kept,
         _ => 1.0,
     }
 }

@@ -62,9 +62,9 @@ impl PartialEq for UserLaws {
 }
 
 /// Step of a difference relative to the argument.
-const STEP: f64 = 1e-6;
+const DIFFERENCE_STEP: f64 = 1e-6;
 /// The same relative to the length of an interface, for gaps near zero.
-const FINE: f64 = 1e-11;
+const GAP_STEP: f64 = 1e-11;
 
 /// Nodes and weights of Gauss' rule of five points on `[0, 1]`.
 const GAUSS: [(f64, f64); 5] = [
@@ -120,7 +120,7 @@ impl UserNormal {
             None => {
                 let steps: Vec<f64> = gaps
                     .iter()
-                    .map(|g| STEP * g.abs() + FINE * self.length)
+                    .map(|g| DIFFERENCE_STEP * g.abs() + GAP_STEP * self.length)
                     .collect();
                 let beside = |sign: f64| gaps.iter().zip(&steps).map(move |(g, h)| g + sign * h);
                 let at: Vec<f64> = beside(1.0).chain(beside(-1.0)).collect();
@@ -193,7 +193,7 @@ impl NormalLaw for UserNormal {
 
     fn gap(&self, pressure: f64) -> Slope {
         let value = |gap: f64| self.values(&[gap]).pop().unwrap_or(f64::NAN);
-        let (mut low, mut high) = (-FINE * self.length, self.length);
+        let (mut low, mut high) = (-GAP_STEP * self.length, self.length);
         while value(low) < pressure && low > -self.length {
             low *= 4.0;
         }
@@ -248,7 +248,9 @@ impl UserFriction {
             Some(slopes) => slopes.map(|s| sized(s, n)),
             None => {
                 let beside = |of: &[f64], sign: f64| -> Vec<f64> {
-                    of.iter().map(|x| x * (1.0 + sign * STEP)).collect()
+                    of.iter()
+                        .map(|x| x * (1.0 + sign * DIFFERENCE_STEP))
+                        .collect()
                 };
                 let p = [beside(&pressures, 1.0), beside(&pressures, -1.0)];
                 let v = [beside(&speeds, 1.0), beside(&speeds, -1.0)];
@@ -260,7 +262,7 @@ impl UserFriction {
                     let pairs = around[first..first + n].iter().zip(&around[first + n..]);
                     let both = pairs.zip(of);
                     both.map(|((a, b), x)| match *x > 0.0 {
-                        true => (a - b) / (2.0 * STEP * x),
+                        true => (a - b) / (2.0 * DIFFERENCE_STEP * x),
                         false => 0.0,
                     })
                     .collect()

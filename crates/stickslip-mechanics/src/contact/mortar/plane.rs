@@ -4,16 +4,12 @@ use super::clip::{Point, Polygon};
 use super::rules;
 use super::view::View;
 use super::window::{Window, frame};
+use crate::contact::projection::FARTHEST;
 use crate::math::{Vec3, dot, sub};
 use crate::shape::ElementKind;
 
-/// Part of a cell below which a piece of it is nothing.
-const LEAST_PIECE: f64 = 1e-14;
-
-/// Steps of Newton's method for a place in a quadrilateral; a step in reference coordinates after which it is there, and one that leads nowhere.
+/// Steps of Newton's method for a place in a quadrilateral.
 const ITERATIONS: usize = 20;
-const SETTLED: f64 = 1e-14;
-const FAR: f64 = 1e3;
 
 /// Most corners of a cell.
 const MOST: usize = 4;
@@ -106,7 +102,8 @@ impl Window for Plane {
         if b[0] >= a[2] || b[2] <= a[0] || b[1] >= a[3] || b[3] <= a[1] {
             return None;
         }
-        let least = LEAST_PIECE * self.size;
+        // A smaller piece of a cell is nothing.
+        let least = 1e-14 * self.size;
         let common = Polygon::new(corners.iter().copied())
             .reversed()
             .cut(&self.polygon)
@@ -163,10 +160,11 @@ fn locate(corners: &[Point], p: Point) -> Option<([f64; 4], f64)> {
             (u[0] * r[1] - u[1] * r[0]) / det,
         ];
         let longest = step[0].abs().max(step[1].abs());
-        if !longest.is_finite() || longest > FAR {
+        if !longest.is_finite() || longest > FARTHEST {
             return None;
         }
-        if longest < SETTLED {
+        // After such a step in reference coordinates the place is found.
+        if longest < 1e-14 {
             let weights = [
                 0.25 * (1.0 - s) * (1.0 - t),
                 0.25 * (1.0 + s) * (1.0 - t),

@@ -33,9 +33,6 @@ pub struct Amplitudes {
 /// Most patterns of loads, and of motions, that are kept: a load that turns needs two or three.
 const MOST: usize = 24;
 
-/// What is left of a vector, relative to it, when it counts as made up of the patterns: rounding.
-const ROUNDING: f64 = 4e-15;
-
 /// The patterns met so far, without what the factors make of them.
 #[derive(Debug, Clone, Default, crate::keep::Keep)]
 pub struct PatternsRecipe {
@@ -177,7 +174,8 @@ fn resolve(
         }
     }
     let rest = norm(&left);
-    if rest > ROUNDING * size {
+    // Less is left of a vector, relative to it, where it is made up of the patterns: rounding.
+    if rest > 4e-15 * size {
         let keep = patterns.len() < MOST;
         let size = if keep { rest } else { 1.0 };
         left.iter_mut().for_each(|l| *l /= size);
