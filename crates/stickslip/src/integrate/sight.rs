@@ -23,12 +23,6 @@ use crate::time::scheme::Alphas;
 /// strained, and by which they have turned otherwise than expected.
 const MOST_PASSES: usize = 40;
 
-/// Roundings of places by which the forces on points may be off.
-const ROUNDINGS: f64 = 4.0;
-
-/// How much more than Newton's method left may be out of balance where that cannot do better.
-const LEFT: f64 = 2.0;
-
 /// What acts at the end of an increment.
 pub(super) struct Acting<'a> {
     /// What is prescribed.
@@ -254,10 +248,12 @@ impl<'a> InertialFrame<'a> {
             .iter()
             .zip(diagonal.chunks(model.dofs.dim));
         let worst = places.map(|(x, k)| (norm(*x) * k[0]).powi(2)).sum::<f64>();
-        let rounding = ROUNDINGS * f64::EPSILON * worst.sqrt();
+        // The forces on points may be off by four roundings of places.
+        let rounding = 4.0 * f64::EPSILON * worst.sqrt();
         let scale = end.size.max(size(&converged.contact));
         let enough = (model.solution.settings.tolerance * scale)
-            .max(LEFT * size(&converged.forces))
+            // Twice as much as Newton's method left may be out of balance where that cannot do better.
+            .max(2.0 * size(&converged.forces))
             .max(rounding);
         if off <= enough {
             return Ok(Some(Converged {

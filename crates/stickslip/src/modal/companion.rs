@@ -11,7 +11,7 @@ use crate::math::vector::dot_in_fours as dot;
 const LARGE: usize = 240;
 
 /// Estimate of the residual at which that method has found a mode.
-const FOUND: f64 = 1e-12;
+const COMPANION_RESIDUAL: f64 = 1e-12;
 
 /// How many modes, up to which frequency.
 pub(crate) type Asked = (usize, f64);
@@ -61,7 +61,10 @@ impl Reduced {
         let companion = self.companion();
         let far = |z: &Complex| 1.0 / size(z) > TAU * to + self.sigma;
         let enough = |values: &[(Complex, f64)]| -> bool {
-            let first = values.iter().take_while(|(_, r)| *r <= FOUND).count();
+            let first = values
+                .iter()
+                .take_while(|(_, r)| *r <= COMPANION_RESIDUAL)
+                .count();
             first >= count || values[..first].iter().any(|(z, _)| far(z))
         };
         let mut apply = |all: &[Vec<f64>]| companion.apply(all);
@@ -71,11 +74,13 @@ impl Reduced {
             apply: &mut apply,
         };
         let found = arnoldi(&mut krylov, n, &enough).into_iter();
-        let found = found.filter(|f| f.residual <= 1e3 * FOUND).map(|found| {
-            let [re, im] = found.vector;
-            let vector = re.into_iter().zip(im).map(|(re, im)| [re, im]);
-            (found.value, vector.collect())
-        });
+        let found = found
+            .filter(|f| f.residual <= 1e3 * COMPANION_RESIDUAL)
+            .map(|found| {
+                let [re, im] = found.vector;
+                let vector = re.into_iter().zip(im).map(|(re, im)| [re, im]);
+                (found.value, vector.collect())
+            });
         found.collect()
     }
 

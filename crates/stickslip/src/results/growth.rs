@@ -16,9 +16,6 @@ const MOST: usize = 2000;
 const CYCLES: [f64; 2] = [6.0, 40.0];
 const SPANS: usize = 60;
 
-/// Most rows of the history for a cycle that a waterfall looks at: several for the highest harmonic.
-const FINE: f64 = 64.0;
-
 /// Columns of the history over the rows of a step.
 struct Rows {
     time: Vec<f64>,
@@ -194,7 +191,8 @@ pub(super) fn spectrum(history: &Table, growth: &Growth) -> Option<Table> {
 /// The same over spans of some cycles, one after the other, by the middle of each. `None` where the step is shorter than two.
 pub(super) fn waterfall(history: &Table, growth: &Growth) -> Option<Table> {
     let frequency = growth.frequency;
-    let rows = Rows::of(history, growth)?.thinned(1.0 / (FINE * frequency));
+    // A waterfall looks at 64 rows of the history for a cycle at most: several for the highest harmonic.
+    let rows = Rows::of(history, growth)?.thinned(1.0 / (64.0 * frequency));
     let end = *rows.time.last()?;
     // Half of each is in the next.
     let fit = (2.0 * end * frequency / CYCLES[0]).floor();

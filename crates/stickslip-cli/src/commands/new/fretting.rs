@@ -157,7 +157,7 @@ fn written(a: &Arguments, t: &Test, finest: f64) -> Written {
         ("computed", f64::from(t.cycles / t.jump)),
         ("jump", f64::from(t.jump)),
         ("coarse", a.radius * MM / 6.0),
-        ("growth", grid::GROWTH),
+        ("growth", grid::CELL_GROWTH),
         ("young-round", a.materials.young * MPA),
         ("poisson-round", a.materials.poisson),
         ("young-flat", young * MPA),

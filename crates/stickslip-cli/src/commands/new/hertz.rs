@@ -69,7 +69,7 @@ pub struct Hertz {
 }
 
 /// Contact wider than this part of the radius is not small: both bodies are no half-spaces, and strains are of its size.
-const WIDEST: f64 = 0.2;
+const WIDEST_CONTACT: f64 = 0.2;
 
 impl Hertz {
     /// Contact of a body of this radius under a load, with the compliance of both.
@@ -118,7 +118,7 @@ impl Hertz {
                 self.unit()
             )
         };
-        if part > WIDEST {
+        if part > WIDEST_CONTACT {
             return Err(Failure::Arguments(
                 format!(
                     "the contact would be {:.2} of the radius wide to each side: too wide for Hertz's theory, and strains would be large",
@@ -126,7 +126,7 @@ impl Hertz {
                 ),
                 format!(
                     "a larger radius, stiffer bodies, or less load: {}",
-                    less(WIDEST / part)
+                    less(WIDEST_CONTACT / part)
                 ),
             ));
         }

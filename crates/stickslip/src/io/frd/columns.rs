@@ -3,15 +3,13 @@
 /// Characters of a value.
 pub(super) const WIDTH: usize = 12;
 
-/// What is smaller has an exponent that takes one column more than there is.
-const SMALLEST: f64 = 1e-99;
-
 /// Adds a value in twelve columns, ` 1.23450E-01`; beyond `1e100` it has fewer digits.
 pub(super) fn push_value(out: &mut Vec<u8>, x: f64) {
     let text = match x {
         _ if x.is_nan() => "NaN".to_string(),
         _ if x.is_infinite() => if x > 0.0 { "Inf" } else { "-Inf" }.to_string(),
-        _ if x.abs() < SMALLEST => scientific(0.0, 5),
+        // What is smaller has an exponent that takes one column more than there is.
+        _ if x.abs() < 1e-99 => scientific(0.0, 5),
         _ => (0..=5)
             .rev()
             .map(|digits| scientific(x, digits))

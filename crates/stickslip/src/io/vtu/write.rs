@@ -331,9 +331,6 @@ impl Array {
     }
 }
 
-/// Part of a block that compression has to save before it is worth its time: fields are of digits that look like noise, indices and what is zero are not.
-const WORTH: f64 = 0.25;
-
 /// What is tried to find out: so many pieces of so many bytes, all over the block.
 const PIECES: usize = 4;
 const PIECE: usize = 1 << 12;
@@ -362,7 +359,9 @@ fn is_noise(block: &[u8]) -> bool {
         .map(|k| &block[k * step..k * step + PIECE])
         .collect();
     let left = deflate(&pieces.concat(), flate2::Compression::fast()).len();
-    left as f64 > (1.0 - WORTH) * (PIECES * PIECE) as f64
+    // Compression is worth its time if it saves a quarter of a block: fields are of digits that look like noise, indices and what is zero
+    // are not.
+    left as f64 > (1.0 - 0.25) * (PIECES * PIECE) as f64
 }
 
 fn deflate(bytes: &[u8], level: flate2::Compression) -> Vec<u8> {

@@ -72,7 +72,7 @@ pub(super) fn build(
 }
 
 /// Spacing of the points of the secondary over that of the nodes of the primary from which on the sides are exchanged.
-const COARSER: f64 = 1.25;
+const COARSER_SECONDARY: f64 = 1.25;
 
 /// An interface made with its sides exchanged: what the problem says of one side is said of the other.
 fn exchanged(mut interface: InterfaceDefinition) -> InterfaceDefinition {
@@ -149,7 +149,7 @@ impl Make<'_> {
             let body = bodies.iter().find(|b| b.points.contains(n));
             body.is_some_and(|b| b.rigid.is_some())
         });
-        !rigid && look::coarser(named).is_some_and(|ratio| ratio > COARSER)
+        !rigid && look::coarser(named).is_some_and(|ratio| ratio > COARSER_SECONDARY)
     }
 
     /// How an interface starts; `key` is that of its secondary.
