@@ -26,7 +26,7 @@ use crate::material::Stiffness;
 use crate::shape::ElementKind;
 
 /// `ε`: that of C3D8R in CalculiX, found by runs of single cells. Half a percent of the stiffness in bending of a cube.
-const STIFFNESS: f64 = 5e-4;
+const HOURGLASS_STIFFNESS: f64 = 5e-4;
 
 /// Most motions a cell has: hex8.
 pub(super) const MODES: usize = 4;
@@ -65,7 +65,7 @@ impl<const N: usize> Hourglass<N> {
 
     /// `κ V / (Σ_i b_i·b_i V²)`.
     pub fn factor(&self, modulus: f64) -> f64 {
-        STIFFNESS * modulus
+        HOURGLASS_STIFFNESS * modulus
     }
 
     /// What [`vectors`](Self::vectors) fills, and the directions in which each acts.

@@ -10,13 +10,13 @@ use crate::math::{Vec3, dot};
 use crate::model::limits::Limits;
 
 /// Angle in radians below which it is not judged: half its square is less than rounding leaves of most coordinates.
-const NOTHING: f64 = 1e-7;
+const NO_ROTATION: f64 = 1e-7;
 
 impl View<'_> {
     /// Judges what rotations of bodies, by body `[rad]`, leave out at interfaces; `turns` are zero of those that turn in frames.
     pub(super) fn judge_rotations(&self, turns: &[Vec3], limits: &Limits, gate: &mut Gate) {
         let t = self.frame.state.t;
-        let far = |turn: &Vec3| dot(*turn, *turn) > NOTHING * NOTHING;
+        let far = |turn: &Vec3| dot(*turn, *turn) > NO_ROTATION * NO_ROTATION;
         let turned: Vec<Option<Turned>> = match turns.iter().any(far) {
             true => (turns.iter().zip(self.anchors(t)))
                 .map(|(by, anchors)| far(by).then_some(Turned { by: *by, anchors }))

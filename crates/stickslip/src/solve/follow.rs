@@ -17,12 +17,7 @@ use crate::model::rigid::free_bodies::FreeBody;
 use crate::model::scene::Scene;
 use crate::system::{Stage, State};
 use crate::time::Trial;
-
-/// Part of a cell that a body may move in a round.
-const REACH: f64 = 0.25;
-
-/// Component of a motion along a normal from which on contact may resist it.
-const RESISTED: f64 = 1e-6;
+use crate::tolerance::NEGLIGIBLE;
 
 impl Solver {
     /// Finds the bodies that supports leave free and interfaces may hold in the step at hand.
@@ -52,7 +47,7 @@ impl Solver {
                     if free.has(model, point) {
                         met = true;
                         resisted |= free.motions.iter().any(|(_, motion)| {
-                            dot(dofs.vector(motion, point), normal).abs() > RESISTED
+                            dot(dofs.vector(motion, point), normal).abs() > NEGLIGIBLE
                         });
                     }
                 }
@@ -229,7 +224,8 @@ impl Solver {
             let hold = Hold {
                 spring,
                 force,
-                max_step: REACH * size,
+                // A body may move a quarter of a cell in a round.
+                max_step: 0.25 * size,
                 size,
                 firmness: floating.firmness,
             };

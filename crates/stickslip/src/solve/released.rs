@@ -10,15 +10,13 @@ use crate::model::frame::Frame;
 use crate::model::rigid::free_bodies::FreeBody;
 use crate::model::scene::Scene;
 use crate::time::Trial;
+use crate::tolerance::NEGLIGIBLE;
 
 /// The part of the largest load so far below which a load counts as zero: the residual that increments may leave, and so the remainder of the reaction of a released
 /// support.
 pub(super) fn no_load(model: &Model) -> f64 {
     model.solution.settings.tolerance
 }
-
-/// Force of contact on a body, relative to the largest load so far, that does not press it. Anchors give up when they carry less.
-const NOT_PRESSED: f64 = 1e-6;
 
 /// The load on a floating body along its free motions: the largest, each of which has a largest displacement of one.
 fn along(free: &FreeBody, external: &[f64]) -> f64 {
@@ -113,7 +111,8 @@ impl Solver {
         let before = floating.pressed(model, &frame.contact);
         let after = floating.pressed(model, &accepted.contact);
         let known = before.iter().chain(&floating.pushed);
-        let none = NOT_PRESSED * known.copied().fold(0.0, f64::max);
+        // Anchors give up when they carry less.
+        let none = NEGLIGIBLE * known.copied().fold(0.0, f64::max);
         let mut released = Vec::new();
         for (k, free) in floating.bodies().iter().enumerate() {
             let pressed = floating.pushed[k] > none || before[k] > none;

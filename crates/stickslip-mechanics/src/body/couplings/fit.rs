@@ -2,7 +2,7 @@
 
 use super::Couplings;
 use super::all::Hold;
-use super::elimination::{Elimination, FIRM, Held, compliance, resistance};
+use super::elimination::{ELIMINATION_STIFFNESS, Elimination, Held, compliance, resistance};
 use crate::system::{ContactBlock, Links};
 
 impl Couplings {
@@ -56,7 +56,7 @@ impl Couplings {
                 typical / (norm * norm)
             };
             hold[i] = Hold {
-                stiffness: FIRM * stiffness,
+                stiffness: ELIMINATION_STIFFNESS * stiffness,
                 idle: cells.is_empty() && carried.is_empty(),
             };
             elimination.held.push(match compliance > 0.0 {
@@ -105,7 +105,7 @@ impl Couplings {
             for (stiffness, held) in stiffness.iter_mut().zip(held) {
                 if held.iter().any(|h| beside(h.dof) > 0.0) {
                     let all = compliance(held, |h| h.bulk + beside(h.dof));
-                    *stiffness = stiffness.max(FIRM / all);
+                    *stiffness = stiffness.max(ELIMINATION_STIFFNESS / all);
                 }
             }
         }

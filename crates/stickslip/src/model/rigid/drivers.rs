@@ -6,7 +6,7 @@ use super::modes::{Mode, modes};
 use crate::contact::interface::{Interface, Primary};
 
 /// Force along a motion, relative to the sum of its parts, that is rounding.
-const NO_FORCE: f64 = 1e-8;
+const NO_FORCE_ALONG: f64 = 1e-8;
 
 /// Most names in a sentence.
 const MOST_NAMED: usize = 3;
@@ -130,7 +130,7 @@ impl Scene<'_> {
             }
             let push = self.push(&all, &motion, t);
             for (name, force) in push.each {
-                if force.abs() <= NO_FORCE * push.size {
+                if force.abs() <= NO_FORCE_ALONG * push.size {
                     continue;
                 }
                 match found.iter_mut().find(|(n, _)| *n == name) {
@@ -233,7 +233,7 @@ impl Scene<'_> {
 impl Push {
     /// Whether it is more than rounding.
     pub fn is_felt(&self) -> bool {
-        self.total.abs() > NO_FORCE * self.size
+        self.total.abs() > NO_FORCE_ALONG * self.size
     }
 
     /// The loads that push the way they do together, the largest first.

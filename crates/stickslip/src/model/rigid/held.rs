@@ -7,6 +7,7 @@ use super::null_space;
 use crate::contact::interface::{Interface, Primary};
 use crate::contact::look;
 use crate::math::{Vec3, dot, symmetric_eigen};
+use crate::tolerance::SAME;
 
 /// An unconstrained motion: how much of each mode is in it.
 pub(crate) type Unheld = Vec<f64>;
@@ -15,16 +16,13 @@ pub(crate) type Unheld = Vec<f64>;
 const MOST_MODES: usize = 120;
 
 /// Resistance to a motion, relative to the largest, up to which it is unconstrained.
-pub(crate) const HELD: f64 = 1e-10;
+pub(crate) const NO_RESISTANCE: f64 = 1e-10;
 
 /// Part of a motion below which a mode is no part of it.
 pub(crate) const NO_PART: f64 = 1e-6;
 
 /// Points of an interface that are asked, about.
 const ASKED: usize = 2000;
-
-/// Least share of the directions of an interface.
-const FLAT: f64 = 1e-9;
 
 /// Sums of products of what resists the modes.
 pub(super) struct Resisted<'a> {
@@ -125,7 +123,7 @@ impl Scene<'_> {
             let directions = directions(interface, t);
             resisted.interface(interface, &directions);
         }
-        plain(null_space(&resisted.gram, HELD).0)
+        plain(null_space(&resisted.gram, NO_RESISTANCE).0)
     }
 }
 
@@ -166,7 +164,7 @@ pub(super) fn directions(interface: &Interface, t: f64) -> Vec<Vec3> {
     let some = values
         .iter()
         .enumerate()
-        .filter(|(_, v)| **v > FLAT * whole);
+        .filter(|(_, v)| **v > SAME * whole);
     some.map(|(k, _)| std::array::from_fn(|i| vectors[i][k]))
         .collect()
 }

@@ -9,9 +9,7 @@ use super::common::forced;
 use super::measured::Measured;
 use crate::assess::view::View;
 use crate::contact::response::Status;
-
-/// Gap relative to the cell beneath from which nothing touches.
-const TOUCHING: f64 = 1e-6;
+use crate::tolerance::NEGLIGIBLE;
 
 /// Points of an interface that are asked, about; those that touch are all asked.
 const ASKED: usize = 2000;
@@ -38,7 +36,7 @@ pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
             let Some(beside) = beside.filter(|_| gap.is_finite()) else {
                 continue;
             };
-            let touches = gap <= TOUCHING * interface.points[i].size;
+            let touches = gap <= NEGLIGIBLE * interface.points[i].size;
             if !touches && !i.is_multiple_of(stride) {
                 continue;
             }
