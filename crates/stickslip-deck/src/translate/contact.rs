@@ -185,7 +185,7 @@ fn ties(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
     }
 }
 
-/// `POSITION TIE_TOLERANCE` of a `*TIE` that has none, relative to the size of the faces of the master (CalculiX CrunchiX manual, *Keywords in CalculiX,
+/// `POSITION TOLERANCE` of a `*TIE` that has none, relative to the size of the faces of the master (CalculiX CrunchiX manual, *Keywords in CalculiX,
 /// \*TIE*).
 const TIE_TOLERANCE: f64 = 0.025;
 

@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use stickslip::assess::doctor::WIDEST_CONTACT;
+
 use super::quantity::{self, STRESS};
 use crate::failure::Failure;
 
@@ -67,9 +69,6 @@ pub struct Hertz {
     /// Largest pressure `[Pa]`.
     pub pressure: f64,
 }
-
-/// Contact wider than this part of the radius is not small: both bodies are no half-spaces, and strains are of its size.
-const WIDEST_CONTACT: f64 = 0.2;
 
 impl Hertz {
     /// Contact of a body of this radius under a load, with the compliance of both.

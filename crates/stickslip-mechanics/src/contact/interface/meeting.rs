@@ -32,7 +32,7 @@ impl TimeOfImpact {
 }
 
 /// Part of the gap at which a point that just touches is given a stiffness.
-const CLOSE: f64 = 0.5;
+const IMPACT_GAP: f64 = 0.5;
 
 /// Velocity of approach, relative to the largest velocity, below which surfaces slide past each other.
 const NO_APPROACH: f64 = 1e-9;
@@ -84,7 +84,7 @@ fn meeting_obstacle(
         }
         let gap = mean_gap(shape.as_dyn(), &pose, point, x).unwrap_or(foot.gap);
         let gap = gap - interface.offset(i, t);
-        if gap <= CLOSE * TOUCHING * point.size {
+        if gap <= IMPACT_GAP * TOUCHING * point.size {
             meeting
                 .touching
                 .push((interface.nodes[point.nodes[0]], None));
@@ -128,7 +128,7 @@ fn meeting_of_boxes(
     let (a, b) = (range(x, &mut ours()), range(x, &mut theirs()));
     let (va, vb) = (range(speeds, &mut ours()), range(speeds, &mut theirs()));
     let smallest = interface.points.iter().map(|p| p.size);
-    let slack = CLOSE * TOUCHING * smallest.fold(f64::INFINITY, f64::min);
+    let slack = IMPACT_GAP * TOUCHING * smallest.fold(f64::INFINITY, f64::min);
     // Surfaces that have entered each other by part of a cell have not passed each other.
     let entered = interface.points.iter().map(|p| p.size).fold(0.0, f64::max);
     // What counts as no gap.
@@ -182,7 +182,7 @@ fn meeting_facets(
             (gap, -dot(sub(v, carried), foot.normal), facets[f].nodes[0])
         });
         if let Some((gap, closing, node)) = foot
-            && gap <= CLOSE * TOUCHING * point.size
+            && gap <= IMPACT_GAP * TOUCHING * point.size
             && closing > NO_APPROACH * largest
         {
             let secondary = interface.nodes[point.nodes[0]];
@@ -197,12 +197,12 @@ fn meeting_facets(
                 &facets[f], x, speeds, position, v, offset, largest,
             ));
         }
-        if way * largest > CLOSE * TOUCHING * point.size {
+        if way * largest > IMPACT_GAP * TOUCHING * point.size {
             meeting.way = meeting.way.min(way);
         }
         // What is left to facets that are curved.
         if let Some((gap, closing, _)) = foot
-            && gap > CLOSE * TOUCHING * point.size
+            && gap > IMPACT_GAP * TOUCHING * point.size
             && closing > NO_APPROACH * largest
             && gap <= 0.1 * margin
         {

@@ -13,7 +13,7 @@ use crate::system::{Culprit, Evidence, Tally};
 const MOST: usize = 10;
 
 /// Slip over an increment, relative to the facet, that is too large: such a point is a culprit although it keeps its status.
-const LARGE_SLIP: f64 = 0.5;
+pub const LARGE_SLIP: f64 = 0.5;
 
 /// Halvings by which a kink of the normal law is looked for.
 const HALVINGS: usize = 40;

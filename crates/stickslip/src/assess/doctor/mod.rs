@@ -23,6 +23,7 @@ mod suspect;
 mod unjoined;
 mod watch;
 
+pub use check::WIDEST_CONTACT;
 pub use finding::{DoctorCause, Finding, MOST_GUILTY};
 pub use suspect::{LocationKind, Severity, Suspect};
 

@@ -3,13 +3,10 @@
 use super::finding::{DoctorCause, Finding};
 use super::suspect::Suspect;
 use crate::assess::view::View;
-use crate::contact::interface::{InterfaceDefinition, Primary};
+use crate::contact::interface::{InterfaceDefinition, LARGE_SLIP, Primary};
 use crate::math::{Vec3, add_scaled, dot, norm, sub};
 use crate::system::Evidence;
 use crate::time::Trial;
-
-/// Slip over an increment relative to the facet that is too large.
-const LARGE_SLIP: f64 = 0.5;
 
 /// What the guilty points show by themselves, the rarest sign first.
 pub(super) fn signs(evidence: &[&Evidence]) -> Option<Finding> {

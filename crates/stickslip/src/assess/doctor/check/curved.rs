@@ -14,7 +14,7 @@ use crate::model::definition::Model;
 
 /// Half width of contact over the radius of curvature at which strains are no longer small: a line of contact has a largest pressure of half of that
 /// part of the contact modulus (Johnson 1985, eq. 4.43 and 4.45).
-const WIDEST_CONTACT: f64 = 0.2;
+pub const WIDEST_CONTACT: f64 = 0.2;
 
 /// Places that are looked at, at least.
 const LEAST: usize = 4;
