@@ -23,7 +23,7 @@ impl Default for GmresSettings {
     }
 }
 
-/// Part of the tolerance that all errors of inexact products may take together.
+/// Part of the tolerance that all errors of inexact products may take together. The iteration has the rest. Tuned.
 const INEXACT_PRODUCTS: f64 = 0.1;
 
 /// `product(v, out, error)` makes `out = A v` with an error that is not above `error` times the product.

@@ -5,7 +5,7 @@ use crate::tolerance::ROUNDING;
 use super::symmetric_eigen;
 use super::vector::{dot, norm};
 
-/// Part of the sizes below which a column is rounding or does not help.
+/// Part of the sizes below which a column is rounding or does not help. Tuned.
 const NO_HELP: f64 = 1e-10;
 
 /// Most changes of the active set, a row.

@@ -63,17 +63,17 @@ pub struct Hold {
 }
 
 /// Part of the way of a round that the load may move a body in the first, before anything is known of what resists: the points that touch
-/// first must not be pressed in so deep that others seem to touch, too.
+/// first must not be pressed in so deep that others seem to touch, too. Tuned.
 const FIRST_WAY: f64 = 0.02;
 
-/// Largest ratio by which anchors get weaker from one round to the next.
+/// Largest ratio by which anchors get weaker from one round to the next. Tuned.
 const LARGEST_RELIEF: f64 = 10.0;
 
 /// Least stiffness of all anchors of a body, over the force on it and the size of a cell. A body that is pressed into a seat or onto other
 /// bodies can roll there. What resists is the force over a radius, and the tangent leaves that out: Newton's method contracts only if the
 /// anchors are stiffer.
 const ROLLING_STIFFNESS: f64 = 2.0;
-/// Factor on the least stiffness each time it proves too weak.
+/// Factor on the least stiffness each time it proves too weak. Tuned.
 const FIRMER: f64 = 8.0;
 
 /// Evaluations in a round up to which anchors may get weaker.
@@ -84,7 +84,8 @@ const HARD: usize = 14;
 /// Rounds from which the place of the anchors is extrapolated.
 const MEMORY: usize = 6;
 
-/// Force in the anchors of a body, relative to that on it, which is no more than the solver leaves out of balance elsewhere.
+/// Force in the anchors of a body, relative to that on it, which is no more than the solver leaves out of balance elsewhere. It is the
+/// default of `solver.tolerance`.
 const NO_ANCHOR_FORCE: f64 = 1e-8;
 
 /// Rounds in which a body has to come to rest.

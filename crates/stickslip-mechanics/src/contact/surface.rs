@@ -142,7 +142,7 @@ pub fn connect(facets: &mut [Facet]) {
     }
 }
 
-/// Angle between neighbouring facets beyond which they meet at an edge of the body `[rad]`.
+/// Angle between neighbouring facets beyond which they meet at an edge of the body `[rad]`. Tuned.
 pub const EDGE_ANGLE: f64 = 0.5;
 
 /// How a smooth surface turns from facet to facet: for each edge that two facets share, the angle between their normals `[rad]` and the distance of

@@ -18,7 +18,7 @@ pub struct Walls {
     depths: OnceLock<Vec<f64>>,
 }
 
-/// Cosine of the angle by which the other face has to look away.
+/// Cosine of the angle by which the other face has to look away. Tuned.
 const LOOKING_AWAY: f64 = 0.1;
 
 impl Walls {

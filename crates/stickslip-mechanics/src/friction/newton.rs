@@ -45,7 +45,8 @@ const PATIENCE: usize = 20;
 /// Halvings of a step. More of them end where the norm has a minimum that is no zero.
 const HALVINGS: usize = 6;
 
-/// The largest compliance that a proximal step adds, relative to that of the point. It is the error where that is smaller: steps are then fast in the end.
+/// The largest compliance that a proximal step adds, relative to that of the point. It is the error where that is smaller: steps are then
+/// fast in the end. Tuned: with 18 problems of the test set of Siconos and 410 random stacks.
 const LARGEST_ADDED_COMPLIANCE: f64 = 1e-2;
 
 impl NewtonInForces {

@@ -5,7 +5,7 @@ use super::{CellRef, Mesh};
 use crate::error::MeshError;
 use crate::math::distance;
 
-/// A Jacobian below this part of that of a right-angled cell is collapsed.
+/// A Jacobian below this part of that of a right-angled cell is collapsed. Tuned.
 const COLLAPSED: f64 = 1e-8;
 
 impl Mesh {

@@ -11,7 +11,7 @@ use crate::system::{Assembler, Cause, StepFailure};
 const STALL: usize = 8;
 
 /// Part of what Newton still needs to which a linear system is solved once the status of points has settled: an inexact Newton method
-/// ([Dembo, Eisenstat and Steihaug](stickslip_base::references::dembo_1982)).
+/// ([Dembo, Eisenstat and Steihaug](stickslip_base::references::dembo_1982)). The value is tuned.
 const FORCING: f64 = 0.1;
 
 /// The finest relative residual of a linear system: double precision gives no more.

@@ -35,10 +35,10 @@ const MOST: usize = 200;
 /// Iterations after which GMRES starts again.
 const RESTART: usize = 60;
 
-/// Part of a facet that points may move along it before the finest level is made anew: stiff contact feels it.
+/// Part of a facet that points may move along it before the finest level is made anew: stiff contact feels it. Tuned.
 const FINEST_LEVEL_DRIFT: f64 = 0.03;
 
-/// The same where the iteration has become slow.
+/// The same where the iteration has become slow. Tuned.
 const SLOW_DRIFT: f64 = 1e-3;
 
 /// A hierarchy that outlives the state it was made at.

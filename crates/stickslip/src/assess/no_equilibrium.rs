@@ -17,16 +17,16 @@ use crate::model::rigid::drivers::named;
 use crate::model::rigid::held::{NO_PART, Unheld};
 use crate::model::rigid::modes::{Mode, modes};
 
-/// Displacements and gaps over the size of the smallest body up to which points are where they were meshed.
+/// Displacements and gaps over the size of the smallest body up to which points are where they were meshed. Tuned.
 const UNMOVED: f64 = 1e-3;
 
-/// Part by which friction is widened, as points move and surfaces bend a little.
+/// Part by which friction is widened, as points move and surfaces bend a little. Tuned.
 const WIDER_FRICTION: f64 = 1e-3;
 
-/// The part that may be left where a figure is wanted as of the mesh.
+/// The part that may be left where a figure is wanted as of the mesh. Tuned.
 const EXACT_REST: f64 = 1e-7;
 
-/// Coefficient of friction that counts as unlimited.
+/// Coefficient of friction that counts as unlimited. No pair of surfaces has as much.
 const UNLIMITED: f64 = 1e3;
 
 /// Pressures, over the stiffness of the cells beneath, and speeds, in sizes of a cell in a unit of time, at which friction is asked for.

@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 use super::criterion::{Criterion, OnPlane};
 use crate::math::{Vec3, add_scaled, cross, dot, normalize};
 
-/// Distance of the planes that are tried at first.
+/// Distance of the planes that are tried at first. It is six degrees, as said above.
 const FIRST_ANGLE: f64 = PI / 30.0;
 
 /// Steps at the end: angle by which the worst plane may be off `[rad]`, a fortieth of a degree or so.

@@ -22,7 +22,7 @@ use crate::solve::spin::Spin;
 use crate::system::{Assembler, Cause, Links, State, StepFailure};
 use crate::tolerance::SAME;
 
-/// What conjugate gradients leave of a right-hand side.
+/// What conjugate gradients leave of a right-hand side. Double precision gives no more.
 const GRADIENTS_RESIDUAL: f64 = 1e-13;
 
 /// Roundings of its terms that a sum may be off.

@@ -28,7 +28,7 @@ use crate::solve::inertia::Inertia;
 use crate::system::{Stage, StepFailure};
 use crate::tolerance::ROUNDING;
 
-/// What is left of the velocity at pressed points, relative to the fastest dof, that is rounding.
+/// What is left of the velocity at pressed points, relative to the fastest dof, that is rounding. Tuned.
 const NO_VELOCITY: f64 = 1e-13;
 
 /// Whether contact is an impulse over an increment: of masses alone, with what does not give way and does not move.

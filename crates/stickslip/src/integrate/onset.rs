@@ -23,7 +23,7 @@ use crate::system::{Deformed, IncrementalRotation, Links, Stage, State, StepFail
 use crate::time::Trial;
 use crate::time::scheme::Alphas;
 
-/// Fraction of the duration of a step after its start at which loads that begin with the step are read.
+/// Fraction of the duration of a step after its start at which loads that begin with the step are read. It is more than rounding of times.
 pub(crate) const JUST_AFTER: f64 = 1e-9;
 
 /// Lengths of the trial increments that find the forces of contact at the start, in first increments.

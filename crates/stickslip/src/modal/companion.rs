@@ -10,7 +10,7 @@ use crate::math::vector::dot_in_fours as dot;
 /// Companion forms above this size are looked at by the method of Arnoldi.
 const LARGE: usize = 240;
 
-/// Estimate of the residual at which that method has found a mode.
+/// Estimate of the residual at which that method has found a mode. Tuned.
 const COMPANION_RESIDUAL: f64 = 1e-12;
 
 /// How many modes, up to which frequency.

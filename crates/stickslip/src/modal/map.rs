@@ -25,8 +25,8 @@ use crate::tolerance::NEGLIGIBLE;
 /// Rounds in which what modes leave open is added, at most.
 const ROUNDS: usize = 40;
 
-/// Estimate of what modes leave open in the equations of all dofs that is good enough. Eigenvalues are better by what left vectors, which the space does not contain,
-/// have beside it.
+/// Estimate of what modes leave open in the equations of all dofs that is good enough. Eigenvalues are better by what left vectors, which
+/// the space does not contain, have beside it. Tuned.
 const GOOD_ESTIMATE: f64 = 1e-6;
 
 /// So many critical factors are told in notes.
@@ -35,9 +35,9 @@ const TOLD: usize = 4;
 /// Companion forms above this size are worth a smaller space.
 const MANY: usize = 160;
 
-/// What modes between those of which a smaller space is made may leave open in the larger one.
+/// What modes between those of which a smaller space is made may leave open in the larger one. Tuned.
 const LEFT_OPEN: f64 = 1e-7;
-/// Part of a mode that counts as new beside others.
+/// Part of a mode that counts as new beside others. Tuned.
 const NEW_PART: f64 = 0.1 * LEFT_OPEN;
 
 /// What changes over a map.

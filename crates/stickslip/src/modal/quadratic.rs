@@ -7,10 +7,10 @@ use super::linear::{FrictionTerms, Linear, Pair, add_pairs};
 use super::shifted::{Root, Shifted};
 use crate::linear::{Complex, Krylov, arnoldi};
 
-/// Estimate of the residual at which a mode counts as found.
+/// Estimate of the residual at which a mode counts as found. Tuned.
 const MODE_RESIDUAL: f64 = 1e-11;
 
-/// Growth relative to the size of the eigenvalue from which a mode counts as unstable.
+/// Growth relative to the size of the eigenvalue from which a mode counts as unstable. Tuned.
 pub(crate) const UNSTABLE_GROWTH: f64 = 1e-8;
 
 /// An eigenvalue with its vector.

@@ -5,8 +5,8 @@ use crate::math::vector::norm;
 /// Increments that are remembered: what two have in common is a parabola.
 const REACH: usize = 2;
 
-/// Part of the way of an increment by which it may bend away from a straight line and still be expected to go on bending. Where points begin to slip or a load
-/// turns, the last two increments say nothing of the next, and a straight line is the safer guess.
+/// Part of the way of an increment by which it may bend away from a straight line and still be expected to go on bending. Where points
+/// begin to slip or a load turns, the last two increments say nothing of the next, and a straight line is the safer guess. Tuned.
 const LARGEST_BEND: f64 = 0.1;
 
 /// The last increments of a quasi-static step, as long as what drives them goes on as it did.

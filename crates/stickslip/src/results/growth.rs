@@ -6,7 +6,7 @@ use super::history::{AMPLITUDE, PHASE, REST};
 use crate::io::csv::Table;
 use crate::model::kick::Growth;
 
-/// Highest frequency of a spectrum, relative to that of the mode.
+/// Highest frequency of a spectrum, relative to that of the mode. Tuned.
 const HARMONICS: f64 = 10.0;
 
 /// Most rows of a spectrum.

@@ -24,14 +24,14 @@ use crate::model::cycling::{Block, ChosenJump};
 use crate::results::observer::{Event, Observer};
 use crate::tolerance::SAME;
 
-/// The error that is aimed at, over the one that is allowed.
+/// The error that is aimed at, over the one that is allowed. Tuned.
 const SAFETY: f64 = 0.8;
-/// How much longer a jump is at most than the one before.
+/// How much longer a jump is at most than the one before. Tuned.
 const JUMP_GROWTH: f64 = 3.0;
 
 /// Fewest cycles of a jump: as a whole and in two halves it costs three.
 const FEWEST: usize = 4;
-/// Cycles that a jump may always be tried with, however short the one before.
+/// Cycles that a jump may always be tried with, however short the one before. Tuned.
 const ALWAYS_TRIED: f64 = 8.0;
 
 fn chosen(run: &Run) -> Option<(ChosenJump, f64, usize)> {

@@ -12,23 +12,26 @@ const DENSE_RATE: f64 = 3e10;
 /// Entries of a matrix that memory delivers in a second.
 const MEMORY_RATE: f64 = 1.2e9;
 
-/// Newton iterations of a quasi-static and of a dynamic increment, and Krylov iterations of each.
+/// Newton iterations of a quasi-static and of a dynamic increment. Tuned.
 const NEWTON: [f64; 2] = [2.5, 1.5];
+/// Krylov iterations of a Newton iteration of condensed bodies. Tuned.
 const KRYLOV_ITERATIONS: f64 = 6.0;
 /// Newton iterations of a quasi-static increment in which bodies turn on axles, as their contact goes on to other points in each: 5.6 and 4.9 in the examples `gear-pair` and
 /// `geneva-drive`, 6.5 in `rolling-wheel` and `bentall-johnson`.
 const NEWTON_TURNING: f64 = 6.0;
 
-/// Newton iterations that one factor of the gaps serves.
+/// Newton iterations that one factor of the gaps serves. Tuned.
 const NEWTON_A_FACTOR: f64 = 6.0;
 
-/// With the sparse matrix: Krylov iterations of a Newton iteration, Newton iterations that one factor serves, and the time of a solution over that of
-/// reading the factor twice. Between what press-and-slide in slip (7, 5, 1.8) and a slab with its whole face in contact (12, 3, 1.8) took.
+/// Krylov iterations of a Newton iteration with the sparse matrix: press-and-slide in slip took 7, and a slab with its whole face in
+/// contact 12.
 const SPARSE_KRYLOV: f64 = 10.0;
+/// Newton iterations that one factor of the sparse matrix serves: 5 and 3 in the same problems.
 const SPARSE_NEWTON_A_FACTOR: f64 = 4.0;
 
 /// Least part of the arithmetic of a factor with the candidates last that one in an order of its own takes.
 const FREE_ORDER: f64 = 0.25;
+/// Time of a solution with the factor of the sparse matrix over that of reading it twice: 1.8 in the same problems.
 const SPARSE_SOLVE: f64 = 1.8;
 
 /// Increments whose interiors are found in one sweep. Fixed, so that no number depends on when somebody looks.
@@ -37,9 +40,11 @@ pub(crate) const TOGETHER: usize = 16;
 /// Vectors by dof that an increment holds which waits for its interior: displacements, and what is swept to find it.
 const VECTORS: usize = 2;
 
-/// Seconds of a multigrid hierarchy, and of one of its iterations, a dof in three dimensions. The shapes of `cargo xtask peers shapes` and press-and-slide
-/// up to N = 36 took 0.4e-5 to 1.4e-5, and 2.3e-7 to 3.5e-7 where dense products run at 4.3e10.
+/// Seconds of a multigrid hierarchy, a dof in three dimensions. The shapes of `cargo xtask peers shapes` and press-and-slide up to N = 36
+/// took 0.4e-5 to 1.4e-5.
 const GRID_SETUP: f64 = 1e-5;
+/// Seconds of an iteration of multigrid, a dof in three dimensions. The same problems took 2.3e-7 to 3.5e-7 where dense products run at
+/// 4.3e10.
 const GRID_CYCLE: f64 = 4.2e-7;
 
 /// Iterations that multigrid takes for one Newton iteration: of the same problems, slabs took 4 to 6, press-and-slide 6 in stick and 10 in slip, and a ball of

@@ -61,7 +61,8 @@ const MOST_MOVED: usize = 6;
 /// How often anchors are laid anew, firmer.
 const MOST_FIRMER: usize = 2;
 
-/// How much further an unconstrained body may go than the gaps it has to close and what moves it do: it may turn about a point near what pushes it.
+/// How much further an unconstrained body may go than the gaps it has to close and what moves it do: it may turn about a point near what
+/// pushes it. Tuned.
 const LARGEST_LEVER: f64 = 10.0;
 
 impl Floating {

@@ -71,7 +71,7 @@ impl Cycle {
     }
 }
 
-/// Times of stick or of a swing over each other from which on one of them needs increments that the other does not.
+/// Times of stick or of a swing over each other from which on one of them needs increments that the other does not. Tuned.
 const UNEVEN_TIMES: f64 = 200.0;
 
 /// The problem and what is expected of it.

@@ -2,8 +2,9 @@
 
 use crate::system::{ContactBlock, Links};
 
-/// Stiffness by which multipliers are eliminated, relative to all that holds the points of a row. Every iteration leaves about its inverse of
-/// what an equation is off; what rounding of displacements leaves of forces grows with it.
+/// Stiffness by which multipliers are eliminated, relative to all that holds the points of a row. Every iteration leaves about its inverse
+/// of what an equation is off; what rounding of displacements leaves of forces grows with it. Tuned: with 1e4 condensed bodies that an
+/// equation holds stalled at 1e-4 of the forces.
 pub(super) const ELIMINATION_STIFFNESS: f64 = 1e2;
 
 /// One displacement of a row: what it is multiplied by, squared, and the stiffness of the bulk there.

@@ -26,7 +26,7 @@ pub struct CandidateRange {
 /// Positions of an obstacle that are looked at.
 const POSES: usize = 9;
 
-/// Cells beyond the reach that take part all the same.
+/// Cells beyond the reach that take part all the same. Tuned.
 const CELLS_BEYOND_REACH: f64 = 2.0;
 
 /// The points that take part because they are within reach at displacements `u`; marks their nodes and those they may meet among all

@@ -12,10 +12,10 @@ use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, dot, norm, scale, sub};
 use crate::system::Stage;
 
-/// Part of the increment before its end over which the velocity of an obstacle is taken.
+/// Part of the increment before its end over which the velocity of an obstacle is taken. Tuned.
 const VELOCITY_STEP: f64 = 1e-4;
 
-/// Slip that moves a point by less than this part of what its cell yields under the shear has no direction to speak of.
+/// Slip that moves a point by less than this part of what its cell yields under the shear has no direction to speak of. Tuned.
 const NO_SLIP_DIRECTION: f64 = 1e-2;
 
 /// Judges the last evaluation at the end of an increment, while the history is still that of its start. A point that slips has to carry its

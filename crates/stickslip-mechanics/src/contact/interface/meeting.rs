@@ -31,10 +31,11 @@ impl TimeOfImpact {
     }
 }
 
-/// Part of the gap at which a point that just touches is given a stiffness.
+/// Part of the gap at which a point that just touches is given a stiffness. Tuned.
 const IMPACT_GAP: f64 = 0.5;
 
-/// Velocity of approach, relative to the largest velocity, below which surfaces slide past each other.
+/// Velocity of approach, relative to the largest velocity, below which surfaces slide past each other. What is left is rounding of the
+/// velocities.
 const NO_APPROACH: f64 = 1e-9;
 
 /// How much of the motion `w` (by dof, added to displacements `u`) can be made at time `t` until points of the secondary touch the

@@ -12,13 +12,14 @@ use crate::system::{Culprit, Evidence, Tally};
 /// Most culprits of one interface.
 const MOST: usize = 10;
 
-/// Slip over an increment, relative to the facet, that is too large: such a point is a culprit although it keeps its status.
+/// Slip over an increment, relative to the facet, that is too large: such a point is a culprit although it keeps its status. Tuned; it
+/// decides what is said, and no result.
 pub const LARGE_SLIP: f64 = 0.5;
 
 /// Halvings by which a kink of the normal law is looked for.
 const HALVINGS: usize = 40;
 
-/// Ratio of slopes that counts as a kink.
+/// Ratio of slopes that counts as a kink. Tuned; it decides what is said, and no result.
 const SLOPE_RATIO_OF_KINK: f64 = 4.0;
 
 /// An interface in the present attempt.

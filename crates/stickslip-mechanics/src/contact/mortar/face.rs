@@ -64,7 +64,8 @@ impl Mortar {
     }
 }
 
-/// Cosine of the angle between the normals that two faces have at a node from which on they meet at an edge of the body: normals are averaged where the surface is smooth.
+/// Cosine of the angle between the normals that two faces have at a node from which on they meet at an edge of the body: normals are
+/// averaged where the surface is smooth. It is an angle of 2.6 degrees. Tuned.
 const SMOOTH_COSINE: f64 = 0.999;
 
 /// Finds out which edges are shared with a face that goes smoothly on.

@@ -10,7 +10,7 @@ use crate::math::{
 };
 use crate::shape::ElementKind;
 
-/// Cosine of the angle by which a facet has to look back at a face.
+/// Cosine of the angle by which a facet has to look back at a face. Tuned.
 const LEAST_FACING: f64 = 0.1;
 
 /// Steps of Newton's method for the place where a ray meets a facet.

@@ -5,7 +5,7 @@ use crate::friction::{FrictionProblem, Solution, Tried, natural_map};
 use crate::math::vector;
 use crate::system::{Culprit, Otherwise, StepFailure};
 
-/// Error to which friction problems are solved.
+/// Error to which friction problems are solved. It is the default of `solver.tolerance`.
 pub(super) const FRICTION_ERROR: f64 = 1e-8;
 
 /// Most points that a failure names.

@@ -5,7 +5,8 @@ use crate::newton::attempt::Attempt;
 use crate::newton::settings::Settings;
 use crate::system::{Assembler, Cause, StepFailure};
 
-/// Residual to which its solutions are found, relative to the right-hand side.
+/// Residual to which its solutions are found, relative to the right-hand side. It is a tenth of the error to which friction problems are
+/// solved.
 pub(super) const COLUMN_RESIDUAL: f64 = 1e-9;
 
 /// The linear problem of one pass.

@@ -5,7 +5,7 @@ use super::held::{NO_PART, Unheld};
 use super::modes::{Mode, modes};
 use crate::contact::interface::{Interface, Primary};
 
-/// Force along a motion, relative to the sum of its parts, that is rounding.
+/// Force along a motion, relative to the sum of its parts, that is rounding. Tuned.
 const NO_FORCE_ALONG: f64 = 1e-8;
 
 /// Most names in a sentence.

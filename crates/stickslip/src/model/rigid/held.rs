@@ -15,10 +15,10 @@ pub(crate) type Unheld = Vec<f64>;
 /// Most modes that are looked at together.
 const MOST_MODES: usize = 120;
 
-/// Resistance to a motion, relative to the largest, up to which it is unconstrained.
+/// Resistance to a motion, relative to the largest, up to which it is unconstrained. Tuned.
 pub(crate) const NO_RESISTANCE: f64 = 1e-10;
 
-/// Part of a motion below which a mode is no part of it.
+/// Part of a motion below which a mode is no part of it. Tuned.
 pub(crate) const NO_PART: f64 = 1e-6;
 
 /// Points of an interface that are asked, about.

@@ -71,7 +71,8 @@ pub(super) fn build(
     Ok(out)
 }
 
-/// Spacing of the points of the secondary over that of the nodes of the primary from which on the sides are exchanged.
+/// Spacing of the points of the secondary over that of the nodes of the primary from which on the sides are exchanged. Tuned: a half-disc
+/// of 4 mm cells pressed into a block was up to five times too stiff where the sides were not exchanged, and 11 % with 20 cells.
 const COARSER_SECONDARY: f64 = 1.25;
 
 /// An interface made with its sides exchanged: what the problem says of one side is said of the other.

@@ -12,7 +12,7 @@ use super::words::WordReader;
 use crate::linear::engine::contract::{Analysed, FactorEffort, Interior};
 use crate::linear::{LinearError, Matrix, Numbers, Schur, Workspace};
 
-/// Largest error, relative to the whole, of displacements that are known beforehand: what is worse comes of a singular matrix.
+/// Largest error, relative to the whole, of displacements that are known beforehand: what is worse comes of a singular matrix. Tuned.
 const LARGEST_KNOWN_ERROR: f64 = 1e-3;
 
 /// Bytes of a mebibyte.

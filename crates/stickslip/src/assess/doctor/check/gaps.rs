@@ -11,9 +11,9 @@ use crate::contact::interface::{InterfaceDefinition, Primary, Start};
 use crate::contact::surface::{Facet, turns};
 use crate::tolerance::SAME;
 
-/// Overlap relative to the cell beneath that is a mistake.
+/// Overlap relative to the cell beneath that is a mistake. Tuned; it decides what is said, and no result.
 const DEEP_OVERLAP: f64 = 0.5;
-/// Overlap or gap relative to the cell beneath that is worth a word.
+/// Overlap or gap relative to the cell beneath that is worth a word. Tuned; it decides what is said, and no result.
 const SHALLOW_OVERLAP: f64 = 0.01;
 
 pub(super) fn check(

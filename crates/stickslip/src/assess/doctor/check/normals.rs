@@ -10,7 +10,7 @@ use crate::assess::view::View;
 use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::math::dot;
 
-/// Part of the points of a body inside an obstacle from which the obstacle is inside out.
+/// Part of the points of a body inside an obstacle from which the obstacle is inside out. Tuned; it decides what is said, and no result.
 const INSIDE_OUT: f64 = 0.5;
 
 pub(super) fn check(

@@ -6,7 +6,7 @@ use crate::model::definition::Model;
 use crate::model::scene::Scene;
 use crate::system::{Amplitude, Course, Schedule};
 
-/// Part of its largest value that a factor changes by when it jumps.
+/// Part of its largest value that a factor changes by when it jumps. Tuned; it decides what is said, and no result.
 const JUMP_OF_FACTOR: f64 = 0.5;
 
 /// Something with a factor in time.

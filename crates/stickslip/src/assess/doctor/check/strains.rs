@@ -12,7 +12,7 @@ use crate::model::definition::{Body, Model};
 use crate::model::scene::Scene;
 
 /// Strain of a whole body from which nothing of a linear body can be trusted; loads that are spread over it strain it by half of what is
-/// counted.
+/// counted. Tuned; it decides what is said, and no result.
 pub(super) const LARGE_STRAIN: f64 = 0.2;
 
 fn finding(message: String) -> Finding {

@@ -14,7 +14,7 @@ use crate::model::definition::Model;
 /// Ratios between the units of length, stress and their squares.
 const FACTORS: [f64; 3] = [1e3, 1e6, 1e9];
 
-/// How near to such a ratio counts.
+/// How near to such a ratio counts. Tuned; it decides what is said, and no result.
 const NEAR_RATIO: f64 = 2.0;
 
 /// Moduli from soft gels to diamond `[Pa]`.
@@ -26,7 +26,7 @@ const SYSTEMS: [[f64; 2]; 3] = [[1.0, 1.0], [1e6, 1e-3], [6894.757, 0.0254]];
 /// Speeds of sound in solids `[m/s]`.
 const SPEEDS: [f64; 2] = [10.0, 2e4];
 
-/// Moduli above which a material in pascals is a metal, a ceramic or a hard plastic `[Pa]`.
+/// Moduli above which a material in pascals is a metal, a ceramic or a hard plastic `[Pa]`. Soft plastics and rubbers have less.
 const HARD_MODULUS: f64 = 1e9;
 
 /// Speeds of sound in hard solids `[m/s]`: lead has 1200, a porous ceramic less.
@@ -35,7 +35,7 @@ const HARD_SPEEDS: [f64; 2] = [500.0, 2e4];
 /// Densities of solids, foams included `[kg/m³]`.
 const DENSITIES: [f64; 2] = [1.0, 3e4];
 
-/// Ratio of the sizes of two bodies beyond which one of them is in other units.
+/// Ratio of the sizes of two bodies beyond which one of them is in other units. Tuned; it decides what is said, and no result.
 pub(super) const SIZE_RATIO: f64 = 300.0;
 
 /// A body in numbers.

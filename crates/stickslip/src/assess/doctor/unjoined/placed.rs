@@ -13,10 +13,11 @@ use crate::model::scene::Scene;
 use crate::shape::ElementKind;
 use crate::tolerance::SAME;
 
-/// Part of a facet within which surfaces touch, and that curved ones may overlap by as they are meshed.
+/// Part of a facet within which surfaces touch, and that curved ones may overlap by as they are meshed. Tuned; it decides what is said, and
+/// no result.
 pub(super) const TOUCHING_DISTANCE: f64 = 0.05;
 
-/// Product of unit normals below which surfaces face each other.
+/// Product of unit normals below which surfaces face each other. Tuned; it decides what is said, and no result.
 const OPPOSITE_COSINE: f64 = -0.7;
 
 /// The boundary of a body.
