@@ -1,7 +1,5 @@
 //! Least squares with coefficients that are not negative.
 
-use crate::tolerance::ROUNDING;
-
 use super::symmetric_eigen;
 use super::vector::{dot, norm};
 
@@ -74,7 +72,8 @@ fn least_squares(columns: &[Vec<f64>], active: &[usize], target: &[f64]) -> Vec<
     let gram: Vec<Vec<f64>> = active.iter().map(row).collect();
     let right: Vec<f64> = active.iter().map(|a| dot(of(a), target)).collect();
     let (values, vectors) = symmetric_eigen(&gram);
-    let least = ROUNDING * values.last().copied().unwrap_or(0.0);
+    // Smaller eigenvalues are rounding.
+    let least = 1e-12 * values.last().copied().unwrap_or(0.0);
     let mut out = vec![0.0; active.len()];
     for (k, value) in values.iter().enumerate().filter(|(_, v)| **v > least) {
         let along: f64 = right.iter().zip(&vectors).map(|(r, v)| r * v[k]).sum();
