@@ -3,7 +3,7 @@
 use stickslip::model::Step;
 
 /// Increments after which there is something to go by.
-const FEW: usize = 4;
+const FEW_INCREMENTS: usize = 4;
 
 /// Factor by which what would have been told earlier of what is done since may be wrong. Tuned: on six examples every estimate that is told
 /// was within 1.7 of what came, where without this check some were off by a factor of seven.
@@ -15,7 +15,7 @@ const MOMENTS: usize = 12;
 const FIRST_MOMENT: f64 = 0.25;
 
 /// Most looks at the clock that are kept.
-const MOST: usize = 512;
+const MOST_LOOKS: usize = 512;
 
 /// What is done, and what it took.
 #[derive(Debug, Default)]
@@ -31,7 +31,7 @@ impl Remaining {
             self.looks.clear();
         }
         self.looks.push((done, seconds));
-        if self.looks.len() > MOST {
+        if self.looks.len() > MOST_LOOKS {
             let mut odd = false;
             self.looks.retain(|_| {
                 odd = !odd;
@@ -45,7 +45,7 @@ impl Remaining {
     pub fn seconds(&self) -> Option<f64> {
         let (&(first, begun), &(done, now)) = (self.looks.first()?, self.looks.last()?);
         // There is something to go by after a twentieth of the work, some increments and a second.
-        if self.looks.len() < FEW || done - first < 0.05 || now - begun < 1.0 {
+        if self.looks.len() < FEW_INCREMENTS || done - first < 0.05 || now - begun < 1.0 {
             return None;
         }
         // The last had half as far to see as is to be seen now, or a quarter of what is done.
@@ -182,6 +182,6 @@ mod tests {
         for k in 0..10_000 {
             remaining.note(k as f64 * 1e-4, k as f64);
         }
-        assert!(remaining.looks.len() <= MOST);
+        assert!(remaining.looks.len() <= MOST_LOOKS);
     }
 }

@@ -1,6 +1,6 @@
 use rayon::prelude::*;
 
-use crate::math::vector::{CHUNK, par_dot as dot, par_norm as norm};
+use crate::math::vector::{ENTRIES_PER_TASK, par_dot as dot, par_norm as norm};
 
 /// When [`gmres`] stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -230,8 +230,8 @@ fn residual_into(
 
 /// `a += s b`
 fn add_scaled(a: &mut [f64], s: f64, b: &[f64]) {
-    a.par_chunks_mut(CHUNK)
-        .zip(b.par_chunks(CHUNK))
+    a.par_chunks_mut(ENTRIES_PER_TASK)
+        .zip(b.par_chunks(ENTRIES_PER_TASK))
         .for_each(|(a, b)| {
             for (a, b) in a.iter_mut().zip(b) {
                 *a += s * b;

@@ -7,7 +7,7 @@ use super::vector::{dot, norm};
 const NO_HELP: f64 = 1e-10;
 
 /// Most changes of the active set, a row.
-const MOST: usize = 60;
+const CHANGES_A_ROW: usize = 60;
 
 /// What is left of `target` after the sum of the `columns` with coefficients ≥ 0 that comes nearest to it
 /// ([Lawson and Hanson](crate::references::lawson_hanson_1974), algorithm NNLS). The rest has no positive product with any column: where it is not zero, it is a
@@ -22,7 +22,7 @@ pub fn rest_of_nonnegative(columns: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
     let columns = columns.map(|(c, length)| c.iter().map(|v| v / length).collect());
     let columns: &[Vec<f64>] = &columns.collect::<Vec<_>>();
     let mut rest = target.to_vec();
-    for _ in 0..MOST * target.len().max(1) {
+    for _ in 0..CHANGES_A_ROW * target.len().max(1) {
         let passive = (0..columns.len()).filter(|k| !active.contains(k));
         let best = passive.map(|k| (k, dot(&columns[k], &rest)));
         let best = best.max_by(|a, b| a.1.total_cmp(&b.1));

@@ -77,9 +77,9 @@ const ROLLING_STIFFNESS: f64 = 2.0;
 const FIRMER: f64 = 8.0;
 
 /// Evaluations in a round up to which anchors may get weaker.
-const EASY: usize = 7;
+const EASY_EVALUATIONS: usize = 7;
 /// Evaluations in a round from which on anchors have to get stiffer.
-const HARD: usize = 14;
+const HARD_EVALUATIONS: usize = 14;
 
 /// Rounds from which the place of the anchors is extrapolated.
 const MEMORY: usize = 6;
@@ -89,7 +89,7 @@ const MEMORY: usize = 6;
 const NO_ANCHOR_FORCE: f64 = 1e-8;
 
 /// Rounds in which a body has to come to rest.
-const MOST_ROUNDS: usize = 100;
+const MOST_ANCHOR_ROUNDS: usize = 100;
 
 impl Anchors {
     /// No anchors yet.
@@ -367,9 +367,9 @@ impl Force for Anchors {
             }
             // What is left of the force may move the body as far in the next round as all of it in the first.
             let relief = match effort {
-                ..=EASY => (g.max_step / away).clamp(1.0, LARGEST_RELIEF),
+                ..=EASY_EVALUATIONS => (g.max_step / away).clamp(1.0, LARGEST_RELIEF),
                 // Anchors get stiffer by a factor of three.
-                HARD.. => 1.0 / 3.0,
+                HARD_EVALUATIONS.. => 1.0 / 3.0,
                 _ => 1.0,
             };
             let before = g.stiffness;
@@ -384,12 +384,12 @@ impl Force for Anchors {
             return Augmentation::Done;
         }
         self.rounds += 1;
-        self.unbalanced |= self.rounds >= MOST_ROUNDS;
+        self.unbalanced |= self.rounds >= MOST_ANCHOR_ROUNDS;
         Augmentation::Again(worst)
     }
 
     fn patience(&self) -> usize {
-        MOST_ROUNDS
+        MOST_ANCHOR_ROUNDS
     }
 }
 

@@ -31,7 +31,7 @@ pub struct Foot {
 }
 
 /// Steps of Newton's method for a projection.
-const ITERATIONS: usize = 25;
+const PROJECTION_STEPS: usize = 25;
 
 /// Reference coordinates beyond which Newton's method leads nowhere: no projection and no place in a facet is sought there. Tuned.
 pub(super) const FARTHEST: f64 = 1e3;
@@ -139,7 +139,7 @@ impl Patch {
     fn project_from(&self, point: Vec3, start: [f64; 2]) -> Option<Foot> {
         let mut xi = start;
         let linear = matches!(self.kind, ElementKind::Line2 | ElementKind::Tri3);
-        for _ in 0..ITERATIONS {
+        for _ in 0..PROJECTION_STEPS {
             let (x, a) = self.at(xi);
             let r = sub(point, x);
             let f = [dot(r, a[0]), dot(r, a[1])];

@@ -12,11 +12,11 @@ pub struct GaussSeidel {
 }
 
 /// Sweeps between two looks at the error, which costs as much as a sweep.
-const LOOK: usize = 10;
+const SWEEPS_A_LOOK: usize = 10;
 
 /// Looks after which the error must have fallen to 0.9 of what it was, or the sweeps gain nothing; where there are more sweeps, a tenth of
 /// them.
-const PATIENCE: usize = 10;
+const LOOK_PATIENCE: usize = 10;
 
 impl FrictionSolver for GaussSeidel {
     fn name(&self) -> &'static str {
@@ -32,13 +32,13 @@ impl FrictionSolver for GaussSeidel {
         let own: Vec<[f64; 9]> = (0..problem.points()).map(|k| problem.own(k)).collect();
         let mut forces = start.to_vec();
         let mut best = Best::new(&forces, problem.error(&forces));
-        let patience = PATIENCE.max(self.sweeps / (10 * LOOK));
+        let patience = LOOK_PATIENCE.max(self.sweeps / (10 * SWEEPS_A_LOOK));
         let mut seen = vec![best.error()];
         for sweep in 1..=self.sweeps {
             for (k, block) in own.iter().enumerate() {
                 visit(problem, k, block, stiffness[k], &mut forces);
             }
-            if sweep % LOOK != 0 && sweep != self.sweeps {
+            if sweep % SWEEPS_A_LOOK != 0 && sweep != self.sweeps {
                 continue;
             }
             best.see(&forces, problem.error(&forces));

@@ -37,13 +37,13 @@ pub struct NewtonInForces {
 }
 
 /// Most iterations unless somebody says otherwise. Where it succeeds it needs below 70 on all problems that were measured.
-const MOST: usize = 100;
+const MOST_NEWTON_ITERATIONS: usize = 100;
 
 /// Iterations in which the error must fall to half of what it was, or the method gains nothing.
-const PATIENCE: usize = 20;
+const NEWTON_PATIENCE: usize = 20;
 
 /// Halvings of a step. More of them end where the norm has a minimum that is no zero.
-const HALVINGS: usize = 6;
+const STEP_HALVINGS: usize = 6;
 
 /// The largest compliance that a proximal step adds, relative to that of the point. It is the error where that is smaller: steps are then
 /// fast in the end. Tuned: with 18 problems of the test set of Siconos and 410 random stacks.
@@ -55,7 +55,7 @@ impl NewtonInForces {
         NewtonInForces {
             step,
             length,
-            most: MOST,
+            most: MOST_NEWTON_ITERATIONS,
         }
     }
 }
@@ -107,7 +107,7 @@ impl FrictionSolver for NewtonInForces {
             let direction = Linearised::new(problem, &stiffness, &forces, &motion, &map)
                 .direction(self.step, proximal);
             let mut part = 1.0;
-            for halving in 0..=HALVINGS {
+            for halving in 0..=STEP_HALVINGS {
                 let next: Vec<f64> = forces
                     .iter()
                     .zip(&direction)
@@ -115,7 +115,7 @@ impl FrictionSolver for NewtonInForces {
                     .collect();
                 let found = evaluate(&next);
                 let falls = found.2 < error;
-                if falls || self.length == Length::Full || halving == HALVINGS {
+                if falls || self.length == Length::Full || halving == STEP_HALVINGS {
                     forces = next;
                     (motion, map, error) = found;
                     break;
@@ -124,7 +124,7 @@ impl FrictionSolver for NewtonInForces {
             }
             best.see(&forces, error);
             seen.push(best.error());
-            let before = seen.len().checked_sub(PATIENCE + 1);
+            let before = seen.len().checked_sub(NEWTON_PATIENCE + 1);
             // The part to which the error must have fallen.
             if before.is_some_and(|before| best.error() > 0.5 * seen[before]) {
                 return best.after(iteration + 1);

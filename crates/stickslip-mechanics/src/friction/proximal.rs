@@ -10,7 +10,7 @@ use super::solver::{Best, FrictionSolver, Iterate};
 pub struct ProximalPoint;
 
 /// Most problems.
-const MOST: usize = 200;
+const MOST_PROBLEMS: usize = 200;
 
 /// Sweeps where Newton's method fails on a problem.
 const SWEEPS: usize = 100;
@@ -30,7 +30,7 @@ impl FrictionSolver for ProximalPoint {
         let mut added = 1.0;
         let mut iterations = 0;
         let mut near = problem.clone();
-        for _ in 0..MOST {
+        for _ in 0..MOST_PROBLEMS {
             if best.error() <= tolerance || added > 100.0 {
                 break;
             }

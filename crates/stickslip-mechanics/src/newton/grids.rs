@@ -27,10 +27,10 @@ pub struct BodyPoints {
 }
 
 /// Iterations after which a hierarchy is made anew if it is not fresh.
-const PATIENCE: usize = 40;
+const HIERARCHY_PATIENCE: usize = 40;
 
 /// Iterations after which a fresh hierarchy is given up.
-const MOST: usize = 200;
+const MOST_GRID_ITERATIONS: usize = 200;
 
 /// Iterations after which GMRES starts again.
 const RESTART: usize = 60;
@@ -157,7 +157,11 @@ impl Made {
             x,
             GmresSettings {
                 tolerance,
-                max_iterations: if self.fresh { MOST } else { most },
+                max_iterations: if self.fresh {
+                    MOST_GRID_ITERATIONS
+                } else {
+                    most
+                },
                 restart: RESTART,
             },
         )
@@ -282,7 +286,7 @@ impl Grids {
         statistics.seconds.factor += started.elapsed().as_secs_f64();
         let mut x = vec![0.0; b.len()];
         let mut spent = 0;
-        for most in [2 * PATIENCE, MOST] {
+        for most in [2 * HIERARCHY_PATIENCE, MOST_GRID_ITERATIONS] {
             let Some(made) = &mut self.made else {
                 return Ok(None);
             };
@@ -294,7 +298,7 @@ impl Grids {
             if !report.relative_residual.is_finite() {
                 return Err(not_finite());
             }
-            made.slow = report.iterations > PATIENCE;
+            made.slow = report.iterations > HIERARCHY_PATIENCE;
             if report.converged {
                 return Ok(Some((x, spent)));
             }

@@ -21,7 +21,7 @@ use crate::time::scheme::Alphas;
 
 /// Most times that an increment is solved again with forces that have been found where it ended. Each leaves the part of the imbalance by which bodies are
 /// strained, and by which they have turned otherwise than expected.
-const MOST_PASSES: usize = 40;
+const SOLUTION_PASSES: usize = 40;
 
 /// What acts at the end of an increment.
 pub(super) struct Acting<'a> {
@@ -261,7 +261,7 @@ impl<'a> InertialFrame<'a> {
                 ..converged.clone()
             }));
         }
-        if off.is_nan() || passes >= MOST_PASSES {
+        if off.is_nan() || passes >= SOLUTION_PASSES {
             return Err(StepFailure::new(
                 Cause::NotConverged,
                 format!(

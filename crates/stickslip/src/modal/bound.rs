@@ -12,7 +12,7 @@ use crate::linear::BlockCsr;
 pub(crate) type Sparse = Vec<(usize, f64)>;
 
 /// Groups that are added to a matrix together.
-const TOGETHER: usize = 500;
+const GROUPS_TOGETHER: usize = 500;
 
 /// Displacements as sums of others, by dof.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -116,7 +116,7 @@ impl Bound {
         };
         let points: BTreeSet<usize> = self.dofs().map(|dof| dof / dim).collect();
         let points: Vec<usize> = points.into_iter().collect();
-        for chunk in points.chunks(TOGETHER) {
+        for chunk in points.chunks(GROUPS_TOGETHER) {
             let groups = chunk.iter().map(|&p| self.group(p, matrices));
             let groups: Vec<_> = groups.collect();
             for (k, matrix) in out.iter_mut().enumerate() {

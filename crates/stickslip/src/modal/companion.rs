@@ -8,7 +8,7 @@ use crate::linear::{Complex, DenseLu, Krylov, arnoldi, eigenvalues, general, sum
 use crate::math::vector::dot_in_fours as dot;
 
 /// Companion forms above this size are looked at by the method of Arnoldi.
-const LARGE: usize = 240;
+const LARGE_COMPANION: usize = 240;
 
 /// Estimate of the residual at which that method has found a mode. Tuned.
 const COMPANION_RESIDUAL: f64 = 1e-12;
@@ -54,7 +54,7 @@ impl Reduced {
         if n == 0 {
             return Vec::new();
         }
-        if n <= LARGE {
+        if n <= LARGE_COMPANION {
             let (values, vectors) = general(n, &self.dense()).unwrap_or_default();
             return values.into_iter().zip(vectors).collect();
         }
@@ -96,7 +96,7 @@ impl Reduced {
         if n == 0 {
             return Vec::new();
         }
-        let all: Vec<(Complex, ())> = match n <= LARGE {
+        let all: Vec<(Complex, ())> = match n <= LARGE_COMPANION {
             true => {
                 let values = eigenvalues(n, &self.dense()).unwrap_or_default();
                 values.into_iter().map(|z| (z, ())).collect()

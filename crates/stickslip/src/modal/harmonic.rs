@@ -21,10 +21,10 @@ use crate::model::frame::Frame;
 use crate::model::modal::HarmonicPlan;
 
 /// Rounds in which what is left open is added, at most.
-const ROUNDS: usize = 5;
+const HARMONIC_ROUNDS: usize = 5;
 
 /// At so many frequencies it is seen whether the space is good enough, before it is used at all of them.
-const TRIED: usize = 12;
+const TRIED_FREQUENCIES: usize = 12;
 
 /// Amplitudes, real and imaginary part.
 type Pair = [Vec<f64>; 2];
@@ -50,7 +50,7 @@ pub(crate) fn response(
         dimension: reduced.basis.len(),
         ..Response::default()
     };
-    for frequencies in shaken.frequencies.chunks(TRIED) {
+    for frequencies in shaken.frequencies.chunks(TRIED_FREQUENCIES) {
         let found = shaken.answers(&reduced, frequencies, &mut solves);
         for (frequency, (mut shape, residual, _)) in frequencies.iter().zip(found) {
             if !residual.is_finite() {
@@ -139,9 +139,9 @@ impl Shaken<'_> {
         block.extend(reduced.grow(shifted, &damped, still));
         let images = images(shifted, &block, solves);
         reduced.grow(shifted, &damped, images);
-        let every = self.frequencies.len().div_ceil(TRIED).max(1);
+        let every = self.frequencies.len().div_ceil(TRIED_FREQUENCIES).max(1);
         let tried: Vec<f64> = self.frequencies.iter().copied().step_by(every).collect();
-        for _ in 0..ROUNDS {
+        for _ in 0..HARMONIC_ROUNDS {
             let found = self.answers(&reduced, &tried, solves);
             let open = found
                 .into_iter()

@@ -30,7 +30,7 @@ const ROUNDS: usize = 40;
 const GOOD_ESTIMATE: f64 = 1e-6;
 
 /// So many critical factors are told in notes.
-const TOLD: usize = 4;
+const TOLD_FACTORS: usize = 4;
 
 /// Companion forms above this size are worth a smaller space.
 const MANY: usize = 160;
@@ -358,7 +358,7 @@ fn first_lost(over: &mut Over, space: &mut Space, factors: &[f64], asked: Asked)
 /// What there is to be said of a map.
 pub(crate) fn notes(map: &FrictionMap) -> Vec<String> {
     let mut notes = Vec::new();
-    for [factor, frequency] in map.critical.iter().take(TOLD) {
+    for [factor, frequency] in map.critical.iter().take(TOLD_FACTORS) {
         notes.push(match map.over == MapOver::Friction.name() {
             true => format!(
                 "sliding becomes unstable at {factor:.6} times the friction of the step (mu {:.6}), with the frequency {frequency:.6e}",

@@ -13,7 +13,7 @@ use crate::tolerance::ROUNDING;
 const MOST_ROWS: usize = 8000;
 
 /// Columns that are solved for together.
-const COLUMNS: usize = 32;
+const SOLVED_TOGETHER: usize = 32;
 
 /// The factor of `A = K + σ C + σ² M`.
 pub(crate) struct Shifted<'a> {
@@ -92,7 +92,7 @@ impl<'a> Shifted<'a> {
     /// `A⁻¹ b` of several.
     pub fn solved(&self, columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let mut out = Vec::new();
-        for chunk in columns.chunks(COLUMNS) {
+        for chunk in columns.chunks(SOLVED_TOGETHER) {
             let mut all = chunk.concat();
             self.factor.solve_columns(&mut all, chunk.len());
             out.extend(all.chunks_exact(self.linear.size()).map(<[f64]>::to_vec));
@@ -190,7 +190,7 @@ impl Root {
         }
         let n = linear.size();
         let mut w = vec![0.0; q * q];
-        for (block, chunk) in pairs.chunks(COLUMNS).enumerate() {
+        for (block, chunk) in pairs.chunks(SOLVED_TOGETHER).enumerate() {
             let mut columns = vec![0.0; n * chunk.len()];
             for (column, pair) in columns.chunks_exact_mut(n).zip(chunk) {
                 pair.left.iter().for_each(|&(dof, v)| column[dof] += v);
@@ -198,7 +198,7 @@ impl Root {
             shifted.factor.solve_columns(&mut columns, chunk.len());
             for (k, column) in columns.chunks_exact(n).enumerate() {
                 for (i, pair) in pairs.iter().enumerate() {
-                    w[i * q + block * COLUMNS + k] = product(&pair.right, column);
+                    w[i * q + block * SOLVED_TOGETHER + k] = product(&pair.right, column);
                 }
             }
         }

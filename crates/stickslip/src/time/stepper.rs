@@ -34,7 +34,7 @@ pub struct Stepper {
 }
 
 /// Newton iterations up to which an increment counts as easy.
-const EASY: usize = 8;
+const EASY_ITERATIONS: usize = 8;
 
 impl Stepper {
     /// From `start` to the last of the `milestones`, none of which is stepped over. They are sorted; those not after
@@ -128,7 +128,11 @@ impl Stepper {
     /// The increment was accepted after `iterations`.
     pub fn accept(&mut self, trial: Trial, iterations: usize) {
         self.now = trial.to;
-        self.easy = if iterations <= EASY { self.easy + 1 } else { 0 };
+        self.easy = if iterations <= EASY_ITERATIONS {
+            self.easy + 1
+        } else {
+            0
+        };
         if self.easy >= 2 {
             self.wish = (self.wish * self.growth).min(self.increments.largest);
             self.easy = 0;

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::cache::Geometry;
 use super::definition::{InterfaceDefinition, Primary};
-use super::evaluation::CHUNK;
+use super::evaluation::EVALUATED_PER_TASK;
 use super::search::Search;
 use crate::contact::bounds::Bounds;
 use crate::contact::facet_point::FacetPoint;
@@ -55,7 +55,10 @@ fn facing(definition: &InterfaceDefinition, x: &[Vec3]) -> Vec<Vec3> {
 
 /// Bounds of the facets.
 pub(super) fn enclose(definition: &InterfaceDefinition, x: &[Vec3], out: &mut Vec<Bounds>) {
-    let around = definition.facets().par_iter().with_min_len(CHUNK);
+    let around = definition
+        .facets()
+        .par_iter()
+        .with_min_len(EVALUATED_PER_TASK);
     around.map(|f| Bounds::around(f, x)).collect_into_vec(out);
 }
 

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::evaluation::CHUNK;
+use super::evaluation::EVALUATED_PER_TASK;
 use crate::contact::mortar::Face;
 use crate::contact::search::Tree;
 use crate::contact::surface::{ContactPoint, Facet};
@@ -68,8 +68,8 @@ impl Search {
         self.candidates.resize(points.len(), Vec::new());
         let margin = self.margin;
         points
-            .par_chunks(CHUNK)
-            .zip(self.candidates.par_chunks_mut(CHUNK))
+            .par_chunks(EVALUATED_PER_TASK)
+            .zip(self.candidates.par_chunks_mut(EVALUATED_PER_TASK))
             .for_each(|(points, candidates)| {
                 for (point, candidates) in points.iter().zip(candidates) {
                     tree.near(point.position(x), margin, candidates);

@@ -10,14 +10,14 @@ use crate::math::{add, distance, norm};
 use crate::system::{Culprit, Evidence, Tally};
 
 /// Most culprits of one interface.
-const MOST: usize = 10;
+const MOST_CULPRITS: usize = 10;
 
 /// Slip over an increment, relative to the facet, that is too large: such a point is a culprit although it keeps its status. Tuned; it
 /// decides what is said, and no result.
 pub const LARGE_SLIP: f64 = 0.5;
 
 /// Halvings by which a kink of the normal law is looked for.
-const HALVINGS: usize = 40;
+const KINK_HALVINGS: usize = 40;
 
 /// Ratio of slopes that counts as a kink. Tuned; it decides what is said, and no result.
 const SLOPE_RATIO_OF_KINK: f64 = 4.0;
@@ -140,7 +140,7 @@ pub(super) fn culprits(attempted: LastAttempt) -> Vec<Culprit> {
         let flips = b.flips.cmp(&a.flips);
         flips.then_with(|| slid(b).total_cmp(&slid(a)))
     });
-    all.truncate(MOST);
+    all.truncate(MOST_CULPRITS);
     all.into_iter().map(said).collect()
 }
 
@@ -198,7 +198,7 @@ fn kink(law: &dyn NormalLaw, a: f64, b: f64) -> f64 {
         return 1.0;
     }
     // A smooth law has less and less of it in ever smaller intervals; a kink keeps all of it.
-    for _ in 0..HALVINGS {
+    for _ in 0..KINK_HALVINGS {
         let middle = 0.5 * (a + b);
         if ratio(a, middle) > ratio(middle, b) {
             b = middle;

@@ -76,7 +76,7 @@ const GAUSS: [(f64, f64); 5] = [
     (0.953_089_922_969_332, 0.118_463_442_528_094_5),
 ];
 /// Pieces between a gap and the surface in which the energy is integrated.
-const PIECES: usize = 4;
+const ENERGY_PIECES: usize = 4;
 /// Pieces of the tail of a law beyond the surface, each four times as long as the last, up to the length of the interface.
 const TAIL: usize = 20;
 
@@ -152,8 +152,8 @@ impl UserNormal {
                 continue;
             }
             if gap < 0.0 {
-                let part = -gap / PIECES as f64;
-                for k in 0..PIECES {
+                let part = -gap / ENERGY_PIECES as f64;
+                for k in 0..ENERGY_PIECES {
                     piece(gap + k as f64 * part, gap + (k + 1) as f64 * part, i);
                 }
             } else {

@@ -33,7 +33,7 @@ pub struct Between {
 }
 
 /// Faces looked at by one task.
-const CHUNK: usize = 16;
+const LOOKS_PER_TASK: usize = 16;
 
 /// A place on a surface.
 struct Place {
@@ -249,7 +249,7 @@ pub fn opening(contact: ContactView, u: &[f64]) -> f64 {
         });
         squares.fold((0.0, 0.0), |(sum, count), s| (sum + s, count + 1.0))
     };
-    let sums: Vec<(f64, f64)> = (contact.skin.par_chunks(CHUNK))
+    let sums: Vec<(f64, f64)> = (contact.skin.par_chunks(LOOKS_PER_TASK))
         .flat_map_iter(|skins| {
             let mut found = Vec::new();
             let held = skins.iter().filter(|s| s.points.iter().any(glued));
@@ -296,8 +296,8 @@ fn lowest_of_facets(contact: ContactView, facets: &[Facet], x: &[Vec3], lowest: 
         &contact.reference,
     );
     lowest
-        .par_chunks_mut(CHUNK)
-        .zip(contact.skin.par_chunks(CHUNK))
+        .par_chunks_mut(LOOKS_PER_TASK)
+        .zip(contact.skin.par_chunks(LOOKS_PER_TASK))
         .for_each(|(lowest, skins)| {
             let mut found = Vec::new();
             for (lowest, skin) in lowest.iter_mut().zip(skins) {
@@ -317,7 +317,7 @@ fn lowest_of_facets(contact: ContactView, facets: &[Facet], x: &[Vec3], lowest: 
     let ours = Side::new(ours, sizes, deep, x, &contact.reference);
     let corners = corners(facets, x, &contact.reference);
     let gaps: Vec<Option<(usize, f64)>> = corners
-        .par_chunks(CHUNK)
+        .par_chunks(LOOKS_PER_TASK)
         .flat_map_iter(|corners| {
             let mut found = Vec::new();
             let gaps: Vec<_> = corners.iter().map(|c| ours.gap(c, &mut found)).collect();

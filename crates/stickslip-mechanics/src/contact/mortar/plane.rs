@@ -12,7 +12,7 @@ use crate::shape::ElementKind;
 const ITERATIONS: usize = 20;
 
 /// Most corners of a cell.
-const MOST: usize = 4;
+const CELL_CORNERS: usize = 4;
 
 /// A cell in a plane.
 pub(super) struct Plane {
@@ -20,8 +20,8 @@ pub(super) struct Plane {
     origin: Vec3,
     axes: [Vec3; 2],
     /// Its corners in the plane, with their reference coordinates on the face.
-    corners: [Point; MOST],
-    nodes: [Point; MOST],
+    corners: [Point; CELL_CORNERS],
+    nodes: [Point; CELL_CORNERS],
     count: usize,
     polygon: Polygon,
     size: f64,
@@ -51,7 +51,7 @@ impl Plane {
         let origin = view.x[cell[0]];
         let axes = frame(normal, sub(view.x[cell[1]], origin))?;
         let reference = view.face.kind.reference().nodes();
-        let (mut corners, mut nodes) = ([[0.0; 2]; MOST], [[0.0; 2]; MOST]);
+        let (mut corners, mut nodes) = ([[0.0; 2]; CELL_CORNERS], [[0.0; 2]; CELL_CORNERS]);
         for ((corner, node), &k) in corners.iter_mut().zip(&mut nodes).zip(cell) {
             *corner = axes.map(|e| dot(sub(view.x[k], origin), e));
             *node = [reference[k][0], reference[k][1]];
@@ -93,7 +93,7 @@ impl Window for Plane {
     type Part = Polygon;
 
     fn common(&self, x: &[Vec3], other: &[usize]) -> Option<Polygon> {
-        let mut corners = [[0.0; 2]; MOST];
+        let mut corners = [[0.0; 2]; CELL_CORNERS];
         for (c, &k) in corners.iter_mut().zip(other) {
             *c = self.axes.map(|e| dot(sub(x[k], self.origin), e));
         }

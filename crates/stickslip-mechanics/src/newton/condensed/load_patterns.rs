@@ -31,7 +31,7 @@ pub struct Amplitudes {
 }
 
 /// Most patterns of loads, and of motions, that are kept: a load that turns needs two or three.
-const MOST: usize = 24;
+const MOST_PATTERNS: usize = 24;
 
 /// The patterns met so far, without what the factors make of them.
 #[derive(Debug, Clone, Default, crate::keep::Keep)]
@@ -176,7 +176,7 @@ fn resolve(
     let rest = norm(&left);
     // Less is left of a vector, relative to it, where it is made up of the patterns: rounding.
     if rest > 4e-15 * size {
-        let keep = patterns.len() < MOST;
+        let keep = patterns.len() < MOST_PATTERNS;
         let size = if keep { rest } else { 1.0 };
         left.iter_mut().for_each(|l| *l /= size);
         let (root, interior) = sweep(&left)?;

@@ -9,7 +9,7 @@ use crate::contact::interface::{Interface, Primary};
 const NO_FORCE_ALONG: f64 = 1e-8;
 
 /// Most names in a sentence.
-const MOST_NAMED: usize = 3;
+const NAMES_A_SENTENCE: usize = 3;
 
 /// A load, pretension, support or obstacle that drives a motion.
 #[derive(Debug, Clone, PartialEq)]
@@ -148,7 +148,7 @@ impl Scene<'_> {
         if drivers.is_empty() {
             drivers = self.movers(body, t);
         }
-        drivers.truncate(MOST_NAMED);
+        drivers.truncate(NAMES_A_SENTENCE);
         drivers
     }
 
@@ -241,7 +241,7 @@ impl Push {
         let along = self.each.iter().filter(|(_, f)| f * self.total > 0.0);
         let mut each: Vec<_> = along.collect();
         each.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
-        each.truncate(MOST_NAMED);
+        each.truncate(NAMES_A_SENTENCE);
         let driver = |(key, force): &(String, f64)| Driver {
             key: key.clone(),
             what: format!("pushes with {:.3e}", force.abs()),

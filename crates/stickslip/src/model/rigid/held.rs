@@ -22,7 +22,7 @@ pub(crate) const NO_RESISTANCE: f64 = 1e-10;
 pub(crate) const NO_PART: f64 = 1e-6;
 
 /// Points of an interface that are asked, about.
-const ASKED: usize = 2000;
+const ASKED_POINTS: usize = 2000;
 
 /// Sums of products of what resists the modes.
 pub(super) struct Resisted<'a> {
@@ -58,7 +58,7 @@ impl Resisted<'_> {
             Primary::Rigid(..) => None,
         };
         let theirs = facing.and_then(body_of);
-        let stride = interface.points.len().div_ceil(ASKED).max(1);
+        let stride = interface.points.len().div_ceil(ASKED_POINTS).max(1);
         let asked: Vec<_> = interface.points.iter().step_by(stride).collect();
         let weight = 1.0 / asked.len().max(1) as f64;
         for point in asked {

@@ -356,13 +356,13 @@ fn table(name: &str, tables: &[Table; 2], out: &mut Differences) {
 }
 
 /// Lines of the longest list of quantities.
-const MOST: usize = 40;
+const MOST_QUANTITIES: usize = 40;
 
 impl fmt::Display for Differences {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let differ: Vec<&Difference> = self.quantities.iter().filter(|d| d.largest > 0.0).collect();
         let equal = self.quantities.len() - differ.len();
-        let shown = &differ[..differ.len().min(MOST)];
+        let shown = &differ[..differ.len().min(MOST_QUANTITIES)];
         let width = shown
             .iter()
             .map(|d| d.quantity.chars().count())

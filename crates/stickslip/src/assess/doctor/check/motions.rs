@@ -12,7 +12,7 @@ use crate::contact::response::Status;
 use crate::tolerance::NEGLIGIBLE;
 
 /// Points of an interface that are asked, about; those that touch are all asked.
-const ASKED: usize = 2000;
+const ASKED_POINTS: usize = 2000;
 
 pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
     let model = view.model;
@@ -31,7 +31,7 @@ pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
             false => Status::Slip,
         };
         let mut opposite = Opposite::new(interface, t);
-        let stride = interface.points.len().div_ceil(ASKED).max(1);
+        let stride = interface.points.len().div_ceil(ASKED_POINTS).max(1);
         for (i, (&gap, beside)) in measured.gaps.iter().zip(&measured.nearest).enumerate() {
             let Some(beside) = beside.filter(|_| gap.is_finite()) else {
                 continue;

@@ -18,7 +18,7 @@ use crate::system::Motion;
 use crate::tolerance::SAME;
 
 /// Points of an interface at which obstacles are compared, about.
-const ASKED: usize = 20;
+const OBSTACLE_POINTS: usize = 20;
 
 /// What a body is not joined to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -237,7 +237,7 @@ fn same(model: &Model, a: &InterfaceDefinition, b: &InterfaceDefinition) -> bool
     let asked: Vec<Vec3> = [a, b]
         .into_iter()
         .flat_map(|i| {
-            let stride = i.points.len().div_ceil(ASKED).max(1);
+            let stride = i.points.len().div_ceil(OBSTACLE_POINTS).max(1);
             let points = i.points.iter().step_by(stride);
             points.map(|p| i.place(p))
         })
