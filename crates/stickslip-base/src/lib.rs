@@ -12,5 +12,6 @@ pub mod math;
 pub mod owner;
 pub mod references;
 pub mod registry;
+pub mod tolerance;
 
 pub mod linear;

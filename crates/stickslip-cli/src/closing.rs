@@ -7,16 +7,11 @@ use stickslip::assess::{Figure, Gate, InterfaceSummary, Peak};
 use stickslip::math::norm;
 use stickslip::model::GateMode;
 use stickslip::results::{Analysis, Summary};
+use stickslip::tolerance::SAME;
 
 use crate::style::{self, Look, digits, figure, paint, sentence, vector};
 use crate::voice::say;
 use stickslip::mesh::geometry;
-
-/// Places nearer to an axis than this part of the size of the model are on it: bodies are strained by more. In the unit of [`vector`].
-const HERE: f64 = 1e-4 / style::ROUNDED;
-
-/// Forces below this part of all that an interface carries are rounding.
-const NOTHING: f64 = 1e-9;
 
 /// What a user wants to know at the end; with `verbose` what only who works on the solver wants to know as well.
 pub fn closing(analysis: &Analysis, directory: &Path, verbose: bool) {
@@ -78,7 +73,8 @@ fn physics(i: &InterfaceSummary, dim: usize, size: f64, time: &str) -> Vec<Strin
         true => format!(
             "{} at {}, time {}; now {}",
             figure(peak.value),
-            vector(&peak.at[..dim], HERE * size),
+            // Places nearer to an axis than 1e-4 of the size of the model are on it: bodies are strained by more. In the unit of [`vector`].
+            vector(&peak.at[..dim], 1e-4 / SAME * size),
             digits(peak.time, 6),
             figure(now)
         ),
@@ -91,7 +87,7 @@ fn physics(i: &InterfaceSummary, dim: usize, size: f64, time: &str) -> Vec<Strin
         line("peak traction", most(peak, now, "none"));
     }
     let all = norm(i.normal_force).max(norm(i.shear_force));
-    let force = |f: [f64; 3]| match norm(f) > NOTHING * all {
+    let force = |f: [f64; 3]| match norm(f) > SAME * all {
         true => format!("{} {}", figure(norm(f)), vector(&f[..dim], all)),
         false => "0".into(),
     };

@@ -2,20 +2,20 @@
 
 use stickslip::model::Step;
 
-/// Part of the work after which there is something to go by, increments, and seconds.
-const BEGINNING: f64 = 0.05;
-const FEW: usize = 4;
-const SOON: f64 = 1.0;
+/// Increments after which there is something to go by.
+const FEW_INCREMENTS: usize = 4;
 
-/// Factor by which what would have been told earlier of what is done since may be wrong.
-const RIGHT: f64 = 1.6;
+/// Factor by which what would have been told earlier of what is done since may be wrong. Tuned: on six examples every estimate that is told
+/// was within 1.7 of what came, where without this check some were off by a factor of seven.
+const LARGEST_ERROR: f64 = 1.6;
 
-/// How many earlier moments are asked; the first is when this part of what is done was done.
+/// How many earlier moments are asked.
 const MOMENTS: usize = 12;
-const ASKED: f64 = 0.25;
+/// The first of the earlier moments is when this part of what is done was done. Tuned.
+const FIRST_MOMENT: f64 = 0.25;
 
 /// Most looks at the clock that are kept.
-const MOST: usize = 512;
+const MOST_LOOKS: usize = 512;
 
 /// What is done, and what it took.
 #[derive(Debug, Default)]
@@ -31,7 +31,7 @@ impl Remaining {
             self.looks.clear();
         }
         self.looks.push((done, seconds));
-        if self.looks.len() > MOST {
+        if self.looks.len() > MOST_LOOKS {
             let mut odd = false;
             self.looks.retain(|_| {
                 odd = !odd;
@@ -44,7 +44,8 @@ impl Remaining {
     /// several moments before would have been right.
     pub fn seconds(&self) -> Option<f64> {
         let (&(first, begun), &(done, now)) = (self.looks.first()?, self.looks.last()?);
-        if self.looks.len() < FEW || done - first < BEGINNING || now - begun < SOON {
+        // There is something to go by after a twentieth of the work, some increments and a second.
+        if self.looks.len() < FEW_INCREMENTS || done - first < 0.05 || now - begun < 1.0 {
             return None;
         }
         // The last had half as far to see as is to be seen now, or a quarter of what is done.
@@ -52,10 +53,10 @@ impl Remaining {
         let last = 1.0 - 0.5 * far / (done - first);
         for moment in 0..MOMENTS {
             let along = moment as f64 / (MOMENTS - 1) as f64;
-            let part = ASKED + (last - ASKED) * along;
+            let part = FIRST_MOMENT + (last - FIRST_MOMENT) * along;
             let (k, (then, at)) = self.at(first + part * (done - first))?;
             let told = self.rate(k)? * (done - then);
-            let right = told <= RIGHT * (now - at) && now - at <= RIGHT * told;
+            let right = told <= LARGEST_ERROR * (now - at) && now - at <= LARGEST_ERROR * told;
             if !right {
                 return None;
             }
@@ -181,6 +182,6 @@ mod tests {
         for k in 0..10_000 {
             remaining.note(k as f64 * 1e-4, k as f64);
         }
-        assert!(remaining.looks.len() <= MOST);
+        assert!(remaining.looks.len() <= MOST_LOOKS);
     }
 }

@@ -2,12 +2,10 @@
 
 use std::io::IsTerminal;
 use std::sync::LazyLock;
+use stickslip::tolerance::SAME;
 
 /// Columns of a line.
 pub const WIDTH: usize = 100;
-
-/// Components below this part of a scale are rounding.
-pub const ROUNDED: f64 = 1e-9;
 
 /// How a word looks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -118,7 +116,7 @@ fn trimmed(text: &str) -> &str {
 
 /// A vector, where what is nothing but rounding beside `scale` is zero.
 pub fn vector(components: &[f64], scale: f64) -> String {
-    let each = components.iter().map(|c| match c.abs() <= ROUNDED * scale {
+    let each = components.iter().map(|c| match c.abs() <= SAME * scale {
         true => "0".to_string(),
         false => figure(*c),
     });

@@ -24,10 +24,10 @@ pub struct Source {
 }
 
 /// Deepest nesting of included files.
-const DEPTH: usize = 16;
+const INCLUDE_DEPTH: usize = 16;
 
 /// Most files of one deck, with repetitions.
-const MOST: usize = 1000;
+const MOST_FILES: usize = 1000;
 
 struct Line {
     text: String,
@@ -163,10 +163,10 @@ impl Source {
             // Both programs look from the folder of the job.
             inner = beside(&open[0]);
         }
-        if open.contains(&inner) || open.len() >= DEPTH || self.files.len() >= MOST {
+        if open.contains(&inner) || open.len() >= INCLUDE_DEPTH || self.files.len() >= MOST_FILES {
             return Err(self.error(
                 line.place,
-                format!("the files include each other in a circle, are {DEPTH} deep, or more than {MOST}: {name}"),
+                format!("the files include each other in a circle, are {INCLUDE_DEPTH} deep, or more than {MOST_FILES}: {name}"),
                 "each *INCLUDE must name a file that does not lead back here",
             ));
         }

@@ -15,4 +15,4 @@ pub mod contact;
 pub mod newton;
 
 // Lower rooms have one name in all crates of the library.
-use stickslip_base::{error, family, keep, linear, machine, math, owner, registry};
+use stickslip_base::{error, family, keep, linear, machine, math, owner, registry, tolerance};

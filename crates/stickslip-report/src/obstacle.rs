@@ -7,9 +7,6 @@ use crate::skin::Skin;
 
 type Vec3 = [f64; 3];
 
-/// The box around the bodies is made larger by this factor before it is projected.
-const WIDER: f64 = 1.2;
-
 /// Lines on an obstacle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outline {
@@ -88,7 +85,8 @@ fn around(skin: &Skin) -> Vec<Vec<Vec3>> {
     let [low, high] = skin.bounds();
     let middle = [0, 1, 2].map(|c| (low[c] + high[c]) / 2.0);
     // Bodies that are flat in a direction get a box all the same.
-    let half = [0, 1, 2].map(|c| WIDER * ((high[c] - low[c]) / 2.0).max(0.1 * skin.size()));
+    // The box around the bodies is made larger by a fifth before it is projected.
+    let half = [0, 1, 2].map(|c| 1.2 * ((high[c] - low[c]) / 2.0).max(0.1 * skin.size()));
     // Coordinates from -1 to 1 within the box.
     let at = |x: Vec3| [0, 1, 2].map(|c| middle[c] + half[c] * x[c]);
     let steps = |n: usize| (0..=n).map(move |i| 2.0 * i as f64 / n as f64 - 1.0);

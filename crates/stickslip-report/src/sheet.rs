@@ -16,9 +16,6 @@ pub struct Sheet {
     pub grid: Grid,
 }
 
-/// Part of the largest pressure that counts as pressing.
-pub const PRESSING: f64 = 1e-3;
-
 impl Sheet {
     fn array(&self, name: &str, components: usize) -> Option<&PointArray> {
         let array = self.grid.points.arrays.get(name);
@@ -75,7 +72,8 @@ impl Sheet {
         let most = self.peak().map_or(f64::INFINITY, |(_, most)| most);
         let pressures = self.numbers("CPRESS").iter().enumerate();
         pressures
-            .filter(|(_, p)| **p > PRESSING * most)
+            // Part of the largest pressure that counts as pressing.
+            .filter(|(_, p)| **p > 1e-3 * most)
             .map(|(i, _)| i)
             .collect()
     }

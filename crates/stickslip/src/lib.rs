@@ -11,7 +11,9 @@
 //! The modules are layered; `ARCHITECTURE.md` at the root of the repository draws the map and
 //! `tests/it/layers` holds the code to it.
 
-pub use stickslip_base::{error, family, keep, linear, machine, math, owner, references, registry};
+pub use stickslip_base::{
+    error, family, keep, linear, machine, math, owner, references, registry, tolerance,
+};
 pub use stickslip_mechanics::{body, contact, friction, material, mesh, newton, shape, system};
 
 pub mod io;

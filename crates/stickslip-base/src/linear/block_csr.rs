@@ -303,9 +303,9 @@ impl BlockCsr {
         }
     }
 
-    /// The same of several vectors: each product has the bits that [`mul`](BlockCsr::mul) gives, and the matrix is read once for `TOGETHER` of them.
+    /// The same of several vectors: each product has the bits that [`mul`](BlockCsr::mul) gives, and the matrix is read once for `VECTORS_TOGETHER` of them.
     pub fn mul_all(&self, all: &[&[f64]]) -> Vec<Vec<f64>> {
-        let groups = all.chunks(TOGETHER);
+        let groups = all.chunks(VECTORS_TOGETHER);
         groups
             .flat_map(|group| match (group, self.block) {
                 (&[x], _) => {
@@ -322,17 +322,17 @@ impl BlockCsr {
     fn mul_group<const B: usize>(&self, group: &[&[f64]]) -> Vec<Vec<f64>> {
         let rows = self.rows();
         assert!(group.iter().all(|x| x.len() == rows), "length of x");
-        let mut x = vec![[0.0; TOGETHER]; rows];
+        let mut x = vec![[0.0; VECTORS_TOGETHER]; rows];
         for (k, vector) in group.iter().enumerate() {
             x.iter_mut().zip(*vector).for_each(|(x, v)| x[k] = *v);
         }
-        let mut y = vec![[0.0; TOGETHER]; rows];
+        let mut y = vec![[0.0; VECTORS_TOGETHER]; rows];
         y.par_chunks_mut(ROWS_PER_TASK * B)
             .enumerate()
             .for_each(|(task, part)| {
                 for (i, target) in part.chunks_exact_mut(B).enumerate() {
                     let row = task * ROWS_PER_TASK + i;
-                    let mut sum = [[0.0; TOGETHER]; B];
+                    let mut sum = [[0.0; VECTORS_TOGETHER]; B];
                     let columns = self.pattern.row(row);
                     let blocks = self.row_blocks(row).chunks_exact(B * B);
                     for (&column, block) in columns.iter().zip(blocks) {
@@ -376,12 +376,12 @@ impl BlockCsr {
 }
 
 /// Vectors that are multiplied together.
-const TOGETHER: usize = 8;
+const VECTORS_TOGETHER: usize = 8;
 
 #[cfg(test)]
 mod tests {
     use super::super::testing::{dense_of, grid, noise};
-    use super::{BlockCsr, TOGETHER};
+    use super::{BlockCsr, VECTORS_TOGETHER};
 
     #[test]
     fn groups_add_up_and_the_product_matches_dense() {
@@ -423,8 +423,16 @@ mod tests {
                 assert!((y[i] - expected).abs() < 1e-14);
             }
             // Several at a time have the bits of one.
-            let many: Vec<Vec<f64>> = (0..TOGETHER + 3).map(|_| noise(&mut seed, n)).collect();
-            for count in [1, 2, TOGETHER, TOGETHER + 1, TOGETHER + 3] {
+            let many: Vec<Vec<f64>> = (0..VECTORS_TOGETHER + 3)
+                .map(|_| noise(&mut seed, n))
+                .collect();
+            for count in [
+                1,
+                2,
+                VECTORS_TOGETHER,
+                VECTORS_TOGETHER + 1,
+                VECTORS_TOGETHER + 3,
+            ] {
                 let some: Vec<&[f64]> = many[..count].iter().map(Vec::as_slice).collect();
                 let products = a.mul_all(&some);
                 assert_eq!(products.len(), count);

@@ -28,7 +28,7 @@ pub struct Compliance {
 }
 
 /// Columns below which one task does everything.
-const SMALL: usize = 512;
+const SMALL_PRODUCT: usize = 512;
 
 /// Tasks of a product with a larger matrix.
 const TASKS: usize = 8;
@@ -289,7 +289,7 @@ fn mirror(n: usize, values: &mut [f64]) {
 
 /// First columns of tasks with about equal parts of the lower triangle.
 fn partition(n: usize) -> Vec<usize> {
-    let tasks = if n < SMALL { 1 } else { TASKS };
+    let tasks = if n < SMALL_PRODUCT { 1 } else { TASKS };
     let mut starts: Vec<usize> = (0..tasks)
         .map(|k| {
             let left = 1.0 - k as f64 / tasks as f64;

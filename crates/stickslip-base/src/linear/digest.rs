@@ -12,7 +12,7 @@ use xxhash_rust::xxh3::Xxh3;
 pub struct Digest(Xxh3);
 
 /// Numbers turned into bytes at a time.
-const CHUNK: usize = 512;
+const DIGESTED_AT_A_TIME: usize = 512;
 
 impl Digest {
     /// A digest that starts with a word, to tell uses apart.
@@ -28,8 +28,8 @@ impl Digest {
         to_bytes: impl Fn(T) -> [u8; BYTES],
     ) {
         self.word(all.len() as u64);
-        let mut buffer = [[0; BYTES]; CHUNK];
-        for chunk in all.chunks(CHUNK) {
+        let mut buffer = [[0; BYTES]; DIGESTED_AT_A_TIME];
+        for chunk in all.chunks(DIGESTED_AT_A_TIME) {
             for (bytes, &number) in buffer.iter_mut().zip(chunk) {
                 *bytes = to_bytes(number);
             }

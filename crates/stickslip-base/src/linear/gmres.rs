@@ -1,6 +1,6 @@
 use rayon::prelude::*;
 
-use crate::math::vector::{CHUNK, par_dot as dot, par_norm as norm};
+use crate::math::vector::{ENTRIES_PER_TASK, par_dot as dot, par_norm as norm};
 
 /// When [`gmres`] stops.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,8 +23,8 @@ impl Default for GmresSettings {
     }
 }
 
-/// Part of the tolerance that all errors of inexact products may take together.
-const ERRORS: f64 = 0.1;
+/// Part of the tolerance that all errors of inexact products may take together. The iteration has the rest. Tuned.
+const INEXACT_PRODUCTS: f64 = 0.1;
 
 /// `product(v, out, error)` makes `out = A v` with an error that is not above `error` times the product.
 pub type Product<'a> = dyn FnMut(&[f64], &mut [f64], f64) + 'a;
@@ -78,7 +78,7 @@ pub fn gmres_inexact(
     settings: GmresSettings,
 ) -> GmresReport {
     let n = b.len();
-    let exact = ERRORS * settings.tolerance;
+    let exact = INEXACT_PRODUCTS * settings.tolerance;
     assert_eq!(x.len(), n, "length of the guess");
     let b_norm = norm(b);
     let mut report = GmresReport {
@@ -148,7 +148,7 @@ fn cycle(
         precondition(&mut z);
         let mut w = vec![0.0; n];
         let left = rhs[taken].abs();
-        apply(&z, &mut w, ERRORS * target / left);
+        apply(&z, &mut w, INEXACT_PRODUCTS * target / left);
         taken += 1;
 
         let before = norm(&w);
@@ -230,8 +230,8 @@ fn residual_into(
 
 /// `a += s b`
 fn add_scaled(a: &mut [f64], s: f64, b: &[f64]) {
-    a.par_chunks_mut(CHUNK)
-        .zip(b.par_chunks(CHUNK))
+    a.par_chunks_mut(ENTRIES_PER_TASK)
+        .zip(b.par_chunks(ENTRIES_PER_TASK))
         .for_each(|(a, b)| {
             for (a, b) in a.iter_mut().zip(b) {
                 *a += s * b;

@@ -7,7 +7,7 @@ use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
 
 /// Below this number of nodes dissection has nothing to gain.
-const SMALL: usize = 50;
+const SMALL_DISSECTION: usize = 50;
 
 /// An undirected graph; a node is not its own neighbour.
 #[derive(Debug, Clone, Default)]
@@ -33,7 +33,7 @@ impl Graph {
 /// The nodes in an order of elimination that keeps the factor sparse, postordered: every subtree of the elimination
 /// tree is contiguous, which supernodes are made of.
 pub(super) fn elimination_order(graph: &Graph) -> Vec<u32> {
-    let order = if graph.nodes() < SMALL || graph.neighbours.is_empty() {
+    let order = if graph.nodes() < SMALL_DISSECTION || graph.neighbours.is_empty() {
         minimum_degree(graph)
     } else {
         nested_dissection(graph).unwrap_or_else(|| minimum_degree(graph))

@@ -3,12 +3,11 @@
 use super::symmetric_eigen;
 use super::vector::{dot, norm};
 
-/// Part of the sizes below which a column is rounding or does not help, and of the largest eigenvalue below which one is none.
+/// Part of the sizes below which a column is rounding or does not help. Tuned.
 const NO_HELP: f64 = 1e-10;
-const NO_EIGENVALUE: f64 = 1e-12;
 
 /// Most changes of the active set, a row.
-const MOST: usize = 60;
+const CHANGES_A_ROW: usize = 60;
 
 /// What is left of `target` after the sum of the `columns` with coefficients ≥ 0 that comes nearest to it
 /// ([Lawson and Hanson](crate::references::lawson_hanson_1974), algorithm NNLS). The rest has no positive product with any column: where it is not zero, it is a
@@ -23,7 +22,7 @@ pub fn rest_of_nonnegative(columns: &[Vec<f64>], target: &[f64]) -> Vec<f64> {
     let columns = columns.map(|(c, length)| c.iter().map(|v| v / length).collect());
     let columns: &[Vec<f64>] = &columns.collect::<Vec<_>>();
     let mut rest = target.to_vec();
-    for _ in 0..MOST * target.len().max(1) {
+    for _ in 0..CHANGES_A_ROW * target.len().max(1) {
         let passive = (0..columns.len()).filter(|k| !active.contains(k));
         let best = passive.map(|k| (k, dot(&columns[k], &rest)));
         let best = best.max_by(|a, b| a.1.total_cmp(&b.1));
@@ -73,7 +72,8 @@ fn least_squares(columns: &[Vec<f64>], active: &[usize], target: &[f64]) -> Vec<
     let gram: Vec<Vec<f64>> = active.iter().map(row).collect();
     let right: Vec<f64> = active.iter().map(|a| dot(of(a), target)).collect();
     let (values, vectors) = symmetric_eigen(&gram);
-    let least = NO_EIGENVALUE * values.last().copied().unwrap_or(0.0);
+    // Smaller eigenvalues are rounding.
+    let least = 1e-12 * values.last().copied().unwrap_or(0.0);
     let mut out = vec![0.0; active.len()];
     for (k, value) in values.iter().enumerate().filter(|(_, v)| **v > least) {
         let along: f64 = right.iter().zip(&vectors).map(|(r, v)| r * v[k]).sum();

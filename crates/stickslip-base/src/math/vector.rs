@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 /// Entries of a long vector that one task works on; fixed, so that results never depend on the number of threads.
-pub const CHUNK: usize = 8192;
+pub const ENTRIES_PER_TASK: usize = 8192;
 
 /// The scalar product, entry by entry in order.
 #[inline]
@@ -46,8 +46,8 @@ pub fn dot_in_fours(a: &[f64], b: &[f64]) -> f64 {
 /// The scalar product of long vectors, on all threads.
 pub fn par_dot(a: &[f64], b: &[f64]) -> f64 {
     let parts: Vec<f64> = a
-        .par_chunks(CHUNK)
-        .zip(b.par_chunks(CHUNK))
+        .par_chunks(ENTRIES_PER_TASK)
+        .zip(b.par_chunks(ENTRIES_PER_TASK))
         .map(|(a, b)| dot_in_fours(a, b))
         .collect();
     parts.iter().sum()
@@ -60,11 +60,13 @@ pub fn par_norm(a: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{CHUNK, dot, dot_in_fours, norm, par_dot, par_norm};
+    use super::{ENTRIES_PER_TASK, dot, dot_in_fours, norm, par_dot, par_norm};
 
     #[test]
     fn long_vectors_are_those_of_one_task() {
-        let a: Vec<f64> = (0..2 * CHUNK + 7).map(|i| f64::from(i as u8)).collect();
+        let a: Vec<f64> = (0..2 * ENTRIES_PER_TASK + 7)
+            .map(|i| f64::from(i as u8))
+            .collect();
         let b: Vec<f64> = a.iter().map(|a| 3.0 - a).collect();
         assert_eq!(par_dot(&a, &b), dot(&a, &b));
         assert_eq!(par_norm(&a), norm(&a));

@@ -168,7 +168,7 @@ fn ties(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
                     continue;
                 }
                 let name = job.fresh::<Interface>(&problem_name(&tie.name));
-                let usual = || TOLERANCE * face_size(job, bodies, &tie.master);
+                let usual = || TIE_TOLERANCE * face_size(job, bodies, &tie.master);
                 let mut interface = between(from, to);
                 interface.tied = true;
                 interface.kinematics = small_sliding();
@@ -187,7 +187,7 @@ fn ties(job: &mut Job, bodies: &Bodies, sets: &mut Sets) {
 
 /// `POSITION TOLERANCE` of a `*TIE` that has none, relative to the size of the faces of the master (CalculiX CrunchiX manual, *Keywords in CalculiX,
 /// \*TIE*).
-const TOLERANCE: f64 = 0.025;
+const TIE_TOLERANCE: f64 = 0.025;
 
 /// A typical size of the faces of a surface.
 fn face_size(job: &Job, bodies: &Bodies, surface: &str) -> f64 {

@@ -2,15 +2,13 @@
 
 use crate::deck::{Procedure, Step};
 
-/// How long a step is in which nothing moves: amplitudes over the time of the analysis go on as if it was not there.
-const BRIEF: f64 = 1e-6;
-
 /// First increment, length, smallest and largest increment.
 pub(super) fn times(step: &Step) -> [f64; 4] {
     match step.procedure {
         Procedure::Static { times, .. } | Procedure::Dynamic { times, .. } => times,
         // It takes no time, and next to none is left for it.
-        _ => [0.0, BRIEF, 0.0, 0.0],
+        // A step in which nothing moves is this short: amplitudes over the time of the analysis go on as if it was not there.
+        _ => [0.0, 1e-6, 0.0, 0.0],
     }
 }
 

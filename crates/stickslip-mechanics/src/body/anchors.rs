@@ -3,6 +3,7 @@
 use crate::math::{Vec3, add_scaled, distance, norm, sub};
 use crate::mesh::Mesh;
 use crate::system::{Assembler, Augmentation, Dofs, Energy, Force, Stage, StepFailure, Tangent};
+use crate::tolerance::NEGLIGIBLE;
 
 /// Anchors of unconstrained bodies.
 ///
@@ -61,41 +62,34 @@ pub struct Hold {
     pub firmness: usize,
 }
 
-/// Stiffness of an anchor relative to the bodies' own, to start with and at least.
-const WEAK: f64 = 1e-3;
-const WEAKEST: f64 = 1e-6;
-
 /// Part of the way of a round that the load may move a body in the first, before anything is known of what resists: the points that touch
-/// first must not be pressed in so deep that others seem to touch, too.
-const FIRST: f64 = 0.02;
+/// first must not be pressed in so deep that others seem to touch, too. Tuned.
+const FIRST_WAY: f64 = 0.02;
 
-/// Largest ratio by which anchors get weaker from one round to the next.
-const RELIEF: f64 = 10.0;
+/// Largest ratio by which anchors get weaker from one round to the next. Tuned.
+const LARGEST_RELIEF: f64 = 10.0;
 
-/// Least stiffness of all anchors of a body, over the force on it and the size of a cell, and by how much more it is each time it proves too
-/// weak. A body that is pressed into a seat or onto other bodies can roll there. What resists is the force over a radius, and the tangent
-/// leaves that out: Newton's method contracts only if the anchors are stiffer.
-const ROLLING: f64 = 2.0;
+/// Least stiffness of all anchors of a body, over the force on it and the size of a cell. A body that is pressed into a seat or onto other
+/// bodies can roll there. What resists is the force over a radius, and the tangent leaves that out: Newton's method contracts only if the
+/// anchors are stiffer.
+const ROLLING_STIFFNESS: f64 = 2.0;
+/// Factor on the least stiffness each time it proves too weak. Tuned.
 const FIRMER: f64 = 8.0;
 
-/// Evaluations in a round up to which anchors may get weaker, and those from which on they have to get stiffer, by this much.
-const EASY: usize = 7;
-const HARD: usize = 14;
-const STIFFER: f64 = 3.0;
+/// Evaluations in a round up to which anchors may get weaker.
+const EASY_EVALUATIONS: usize = 7;
+/// Evaluations in a round from which on anchors have to get stiffer.
+const HARD_EVALUATIONS: usize = 14;
 
 /// Rounds from which the place of the anchors is extrapolated.
 const MEMORY: usize = 6;
 
-/// Force in the anchors of a body, relative to that on it, which is no more than the solver leaves out of balance elsewhere; and from where on
-/// that blurs how the bodies go on.
-const NEGLIGIBLE: f64 = 1e-8;
-const BLURRED: f64 = 3e-8;
-
-/// Part of a change between rounds below which it says nothing new.
-const NOTHING_NEW: f64 = 1e-6;
+/// Force in the anchors of a body, relative to that on it, which is no more than the solver leaves out of balance elsewhere. It is the
+/// default of `solver.tolerance`.
+const NO_ANCHOR_FORCE: f64 = 1e-8;
 
 /// Rounds in which a body has to come to rest.
-const MOST_ROUNDS: usize = 100;
+const MOST_ANCHOR_ROUNDS: usize = 100;
 
 impl Anchors {
     /// No anchors yet.
@@ -116,16 +110,18 @@ impl Anchors {
     pub fn hold(&mut self, points: Vec<usize>, u: &[f64], hold: Hold) {
         let here: Vec<Vec3> = points.iter().map(|&p| self.dofs.vector(u, p)).collect();
         let count = points.len().max(1) as f64;
-        let rolling =
-            ROLLING * FIRMER.powi(hold.firmness as i32) * hold.force / (count * hold.size);
-        let first = (WEAK * hold.spring)
-            .max(hold.force / (FIRST * count * hold.max_step))
+        let rolling = ROLLING_STIFFNESS * FIRMER.powi(hold.firmness as i32) * hold.force
+            / (count * hold.size);
+        // An anchor starts with a thousandth of the stiffness of the bodies.
+        let first = (1e-3 * hold.spring)
+            .max(hold.force / (FIRST_WAY * count * hold.max_step))
             .max(rolling);
         self.groups.push(Group {
             points,
             stiffness: first,
             first,
-            least: (WEAKEST * hold.spring).max(rolling),
+            // An anchor has at least a millionth of the stiffness of the bodies.
+            least: (1e-6 * hold.spring).max(rolling),
             force: hold.force,
             max_step: hold.max_step,
             start: here.clone(),
@@ -230,7 +226,7 @@ impl Anchors {
         let (at, now) = (flat(|g| &g.at), flat(|g| &g.now));
         let mut next = now.clone();
         if !self.near {
-            let blur = (self.groups.iter()).map(|g| NEGLIGIBLE * g.force / g.stiffness);
+            let blur = (self.groups.iter()).map(|g| NO_ANCHOR_FORCE * g.force / g.stiffness);
             let blur = blur.fold(0.0, f64::max);
             mix(&self.past, &at, &now, blur, &mut next);
         }
@@ -279,7 +275,8 @@ fn mix(past: &[[Vec<f64>; 2]], at: &[f64], now: &[f64], blur: f64, next: &mut [f
             }
         }
         let size = dot(&change, &change).sqrt();
-        if size <= blur.max(NOTHING_NEW * whole) {
+        // A smaller part of a change between rounds says nothing new.
+        if size <= blur.max(NEGLIGIBLE * whole) {
             continue;
         }
         change.iter_mut().for_each(|c| *c /= size);
@@ -353,10 +350,11 @@ impl Force for Anchors {
         self.evaluations = 0;
         let carried = self.groups.iter().map(|g| g.carried(self.others));
         let carried = carried.fold(0.0, f64::max);
-        if carried <= NEGLIGIBLE {
+        if carried <= NO_ANCHOR_FORCE {
             return Augmentation::Done;
         }
-        self.near |= effort <= 1 || carried <= BLURRED;
+        // From this force in the anchors on, relative to that on the body, they blur how it goes on.
+        self.near |= effort <= 1 || carried <= 3e-8;
         let next = self.extrapolate();
         let mut changed = false;
         for (g, next) in self.groups.iter_mut().zip(next) {
@@ -369,8 +367,9 @@ impl Force for Anchors {
             }
             // What is left of the force may move the body as far in the next round as all of it in the first.
             let relief = match effort {
-                ..=EASY => (g.max_step / away).clamp(1.0, RELIEF),
-                HARD.. => 1.0 / STIFFER,
+                ..=EASY_EVALUATIONS => (g.max_step / away).clamp(1.0, LARGEST_RELIEF),
+                // Anchors get stiffer by a factor of three.
+                HARD_EVALUATIONS.. => 1.0 / 3.0,
                 _ => 1.0,
             };
             let before = g.stiffness;
@@ -385,12 +384,12 @@ impl Force for Anchors {
             return Augmentation::Done;
         }
         self.rounds += 1;
-        self.unbalanced |= self.rounds >= MOST_ROUNDS;
+        self.unbalanced |= self.rounds >= MOST_ANCHOR_ROUNDS;
         Augmentation::Again(worst)
     }
 
     fn patience(&self) -> usize {
-        MOST_ROUNDS
+        MOST_ANCHOR_ROUNDS
     }
 }
 

@@ -9,7 +9,7 @@ use crate::mesh::CellRef;
 use crate::shape::QuadraturePoint;
 
 /// Numbers a point.
-const WIDTH: usize = 22;
+const NUMBERS_A_POINT: usize = 22;
 
 /// The state of one cell.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,14 +60,14 @@ fn part_states<const N: usize>(
         body,
         part,
         at,
-        3 + rule.len() * WIDTH,
+        3 + rule.len() * NUMBERS_A_POINT,
         |medium, [x, v], recovered, values| {
             values[0] = recovered.energy();
             values[1] = recovered.volume();
             values[2] = recovered.hourglass();
             // Strains that are more than those of the displacements are at hand: these schemes have the points of the rule.
             let own = matches!(medium.scheme, Scheme::Uniform | Scheme::Incompatible);
-            for (q, out) in values[3..].chunks_exact_mut(WIDTH).enumerate() {
+            for (q, out) in values[3..].chunks_exact_mut(NUMBERS_A_POINT).enumerate() {
                 let (n, volume, strain) = if own {
                     let p = &recovered.points[q];
                     (medium.values(q), p.volume, recovered.strain[q])
@@ -105,7 +105,10 @@ fn part_states<const N: usize>(
                 energy: values[0],
                 volume: values[1],
                 hourglass: values[2],
-                points: values[3..].chunks_exact(WIDTH).map(point).collect(),
+                points: values[3..]
+                    .chunks_exact(NUMBERS_A_POINT)
+                    .map(point)
+                    .collect(),
             });
         },
     );
@@ -138,9 +141,9 @@ fn part_stress<const N: usize>(
         body,
         part,
         at,
-        points * WIDTH,
+        points * NUMBERS_A_POINT,
         |medium, [x, _], recovered, values| {
-            for (q, out) in values.chunks_exact_mut(WIDTH).enumerate() {
+            for (q, out) in values.chunks_exact_mut(NUMBERS_A_POINT).enumerate() {
                 let n = medium.values(q);
                 for (o, row) in out.iter_mut().zip(x) {
                     *o = n.iter().zip(row).map(|(n, x)| n * x).sum();
@@ -153,7 +156,7 @@ fn part_stress<const N: usize>(
             }
         },
         |cell, values| {
-            for v in values.chunks_exact(WIDTH) {
+            for v in values.chunks_exact(NUMBERS_A_POINT) {
                 visit(StressPoint {
                     cell: CellRef { block, cell },
                     x: [v[0], v[1], v[2]],

@@ -26,15 +26,15 @@ use crate::material::Stiffness;
 use crate::shape::ElementKind;
 
 /// `ε`: that of C3D8R in CalculiX, found by runs of single cells. Half a percent of the stiffness in bending of a cube.
-const STIFFNESS: f64 = 5e-4;
+const HOURGLASS_STIFFNESS: f64 = 5e-4;
 
 /// Most motions a cell has: hex8.
-pub(super) const MODES: usize = 4;
+pub(super) const CELL_MODES: usize = 4;
 
 /// The motions of a kind.
 #[derive(Debug, Clone)]
 pub(super) struct Hourglass<const N: usize> {
-    base: [[f64; N]; MODES],
+    base: [[f64; N]; CELL_MODES],
     /// How many they are.
     count: usize,
     space: Space,
@@ -48,7 +48,7 @@ impl<const N: usize> Hourglass<N> {
             ElementKind::Hex8 => 4,
             _ => 0,
         };
-        let mut base = [[0.0; N]; MODES];
+        let mut base = [[0.0; N]; CELL_MODES];
         for (a, x) in kind.reference().nodes().iter().enumerate() {
             let products = [x[0] * x[1], x[1] * x[2], x[2] * x[0], x[0] * x[1] * x[2]];
             for (row, value) in base.iter_mut().zip(products).take(count) {
@@ -65,7 +65,7 @@ impl<const N: usize> Hourglass<N> {
 
     /// `κ V / (Σ_i b_i·b_i V²)`.
     pub fn factor(&self, modulus: f64) -> f64 {
-        STIFFNESS * modulus
+        HOURGLASS_STIFFNESS * modulus
     }
 
     /// What [`vectors`](Self::vectors) fills, and the directions in which each acts.
@@ -83,7 +83,7 @@ impl<const N: usize> Hourglass<N> {
         points: &[Point<N>],
         mean: &Point<N>,
         modulus: f64,
-    ) -> [[f64; N]; MODES] {
+    ) -> [[f64; N]; CELL_MODES] {
         let dim = self.space.dim();
         let square: f64 = mean.d[..dim].as_flattened().iter().map(|d| d * d).sum();
         let factor = (self.factor(modulus) * mean.volume * square).sqrt();

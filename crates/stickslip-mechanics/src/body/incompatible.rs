@@ -14,7 +14,7 @@ use crate::math::{Mat3, inverse};
 use crate::shape::{ElementKind, QuadraturePoint};
 
 /// Most unknowns of the modes of a cell: hex8.
-const MOST: usize = 9;
+const MODE_UNKNOWNS: usize = 9;
 
 /// The modes of a kind with `N` nodes.
 #[derive(Debug, Clone)]
@@ -34,7 +34,7 @@ type Gradients = [[f64; 3]; 3];
 
 /// The matrix of the modes, factored: `L` of `K_aa = L Lᵀ`.
 struct Factor {
-    l: [[f64; MOST]; MOST],
+    l: [[f64; MODE_UNKNOWNS]; MODE_UNKNOWNS],
     n: usize,
 }
 
@@ -112,7 +112,7 @@ impl<const N: usize> Modes<N> {
         dim: usize,
     ) -> Factor {
         let n = self.count * dim;
-        let mut l = [[0.0; MOST]; MOST];
+        let mut l = [[0.0; MODE_UNKNOWNS]; MODE_UNKNOWNS];
         for_pairs(terms, &mut |i, k, j, l_index, value| {
             for a in 0..self.count {
                 for b in 0..self.count {
@@ -193,7 +193,7 @@ impl<const N: usize> Modes<N> {
         let (dim, used) = (space.dim(), space.derivatives());
         let gradients = self.gradients(x, points, space);
         let factor = self.factor(&gradients, points, terms, dim);
-        let mut amplitude = [0.0; MOST];
+        let mut amplitude = [0.0; MODE_UNKNOWNS];
         for ((g, p), stress) in gradients.iter().zip(points).zip(stress) {
             for m in 0..self.count {
                 for i in 0..dim {
@@ -221,7 +221,7 @@ impl<const N: usize> Modes<N> {
 }
 
 impl Factor {
-    fn solve(&self, b: &mut [f64; MOST]) {
+    fn solve(&self, b: &mut [f64; MODE_UNKNOWNS]) {
         for i in 0..self.n {
             let s: f64 = (0..i).map(|k| self.l[i][k] * b[k]).sum();
             b[i] = (b[i] - s) / self.l[i][i];

@@ -2,7 +2,7 @@
 
 use super::cell_frame::CellFrame;
 use super::geometry::{Nodal, Point, by_nodes, coordinates, gather, point};
-use super::hourglass::MODES;
+use super::hourglass::CELL_MODES;
 use super::medium::Medium;
 use super::scheme::Scheme;
 use super::warmth::Warmth;
@@ -87,9 +87,9 @@ pub(super) struct Recovered<const N: usize> {
     /// The mean dilatation of the cell.
     dilatation: f64,
     /// `√κ γ` of the motions without strain.
-    vectors: [[f64; N]; MODES],
+    vectors: [[f64; N]; CELL_MODES],
     /// How much of them there is, a direction each.
-    amplitudes: [[f64; 3]; MODES],
+    amplitudes: [[f64; 3]; CELL_MODES],
     /// The frame of the cell, in which all of this is, where it has one.
     frame: Option<CellFrame<N>>,
 }
@@ -124,8 +124,8 @@ impl<const N: usize> Recovered<N> {
             thermal: [[0.0; 6]; MAX_POINTS],
             stress: [[0.0; 6]; MAX_POINTS],
             dilatation: 0.0,
-            vectors: [[0.0; N]; MODES],
-            amplitudes: [[0.0; 3]; MODES],
+            vectors: [[0.0; N]; CELL_MODES],
+            amplitudes: [[0.0; 3]; CELL_MODES],
             frame: None,
         }
     }

@@ -14,12 +14,6 @@ use crate::math::{Vec3, symmetric_eigen};
 /// Layers of cells that take mass.
 const LAYERS: usize = 8;
 
-/// Weight of a layer relative to the one before.
-const DECAY: f64 = 0.5;
-
-/// Least factor of a cell.
-const LEAST: f64 = 0.2;
-
 /// Mass matrices of the cells of a body, one direction, and their points.
 pub(super) struct Cell {
     pub points: Vec<usize>,
@@ -57,7 +51,8 @@ fn weights(cells: &[Cell], light: &[bool]) -> Vec<f64> {
         let mut next = reached.clone();
         for (cell, weight) in cells.iter().zip(&mut weights) {
             if *weight == 0.0 && cell.points.iter().any(|&p| reached[p]) {
-                *weight = DECAY.powi(layer as i32);
+                // A layer has half of the weight of the one before.
+                *weight = 0.5_f64.powi(layer as i32);
                 cell.points.iter().for_each(|&p| next[p] = true);
             }
         }
@@ -109,7 +104,8 @@ fn solve(left: &[Vec<f64>], weights: &[f64], missing: &[f64]) -> Option<Vec<f64>
             .sum();
         (sum - missing[k]).abs() <= 1e-9 * missing[0].abs()
     });
-    (reached && factors.iter().all(|&f| f >= LEAST)).then_some(factors)
+    // The least factor of a cell.
+    (reached && factors.iter().all(|&f| f >= 0.2)).then_some(factors)
 }
 
 /// Coordinates about the middle of the light points, in units of the cells that lose mass, so that the small system is well scaled.

@@ -25,7 +25,7 @@ pub struct Turning {
 }
 
 /// Cells that one thread looks at together. Fixed, so that sums do not depend on the number of threads.
-const CHUNK: usize = 512;
+const TURNED_PER_TASK: usize = 512;
 
 /// What some cells have in common: the integral of the displacement gradient, their volume, and the one that has turned most.
 struct Sum {
@@ -135,14 +135,14 @@ fn turning_of<const N: usize>(body: &Elastic, part: &Part, u: &[f64]) -> Vec<Sum
     let table = Table::<N>::with_rule(block.kind, rule);
     let dim = body.space.dim();
     let count = block.connectivity.len() / N;
-    let chunks = (0..count.div_ceil(CHUNK)).into_par_iter();
+    let chunks = (0..count.div_ceil(TURNED_PER_TASK)).into_par_iter();
     let of_chunk = |chunk: usize| {
         let mut sum = Sum {
             gradient: [[0.0; 3]; 3],
             volume: 0.0,
             largest: (0.0, 0),
         };
-        for cell in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {
+        for cell in chunk * TURNED_PER_TASK..((chunk + 1) * TURNED_PER_TASK).min(count) {
             let x = coordinates::<N>(&body.mesh.points, block, cell);
             let mut u = gather(u, body.dofs(), block, cell);
             if body.corotational {

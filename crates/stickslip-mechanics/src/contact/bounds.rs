@@ -6,6 +6,7 @@ use super::search::Box3;
 use super::surface::Facet;
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale};
 use crate::shape::ElementKind;
+use crate::tolerance::ROUNDING;
 
 /// A box around a facet, a cone around its normals, and its geometry.
 #[derive(Debug, Clone, Copy)]
@@ -19,9 +20,6 @@ pub struct Bounds {
     /// Sine of the angle between the axis and the normal farthest from it; above one where nothing is known of the normals.
     spread: f64,
 }
-
-/// Rounding of products of unit vectors, with room to spare.
-const ROUNDING: f64 = 1e-12;
 
 /// Nothing is known of the normals.
 const ANY: (Vec3, f64) = ([0.0; 3], 2.0);

@@ -4,11 +4,7 @@
 use super::search::Tree;
 use super::surface::{Facet, triangulate};
 use crate::math::{Vec3, cross, distance, dot, norm, scale, sub};
-
-/// How far inside both facets, as a fraction of them, a common point must lie: facets that merely touch do not cross.
-const INSIDE: f64 = 1e-6;
-/// Sine below which an edge runs along the other facet.
-const PARALLEL: f64 = 1e-9;
+use crate::tolerance::{NEGLIGIBLE, SAME};
 
 /// The first two facets that run through each other, as positions in `facets`, whose nodes are positions in `x`. Neighbours, which
 /// share a node, do not count; curved facets are taken as the plane pieces between their nodes.
@@ -59,14 +55,15 @@ fn pieces_cross(a: &[Vec3], b: &[Vec3]) -> bool {
 }
 
 fn inside(s: f64) -> bool {
-    s > INSIDE && s < 1.0 - INSIDE
+    // A common point must lie inside both facets: facets that merely touch do not cross.
+    s > NEGLIGIBLE && s < 1.0 - NEGLIGIBLE
 }
 
 /// Segments in the plane z = 0.
 fn segments_cross(a: [Vec3; 2], b: [Vec3; 2]) -> bool {
     let (r, w, d) = (sub(a[1], a[0]), sub(b[1], b[0]), sub(b[0], a[0]));
     let sine = cross(r, w)[2];
-    if sine.abs() <= PARALLEL * norm(r) * norm(w) {
+    if sine.abs() <= SAME * norm(r) * norm(w) {
         return false;
     }
     inside(cross(d, w)[2] / sine) && inside(cross(d, r)[2] / sine)
@@ -77,14 +74,14 @@ fn edge_pierces(edge: [Vec3; 2], t: [Vec3; 3]) -> bool {
     let (r, e1, e2) = (sub(edge[1], edge[0]), sub(t[1], t[0]), sub(t[2], t[0]));
     let normal = cross(e1, e2);
     let sine = dot(normal, r);
-    if sine.abs() <= PARALLEL * norm(normal) * norm(r) {
+    if sine.abs() <= SAME * norm(normal) * norm(r) {
         return false;
     }
     let d = sub(edge[0], t[0]);
     let s = -dot(normal, d) / sine;
     let q = cross(d, r);
     let (u, v) = (-dot(e2, q) / sine, dot(e1, q) / sine);
-    inside(s) && u > INSIDE && v > INSIDE && u + v < 1.0 - INSIDE
+    inside(s) && u > NEGLIGIBLE && v > NEGLIGIBLE && u + v < 1.0 - NEGLIGIBLE
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 use super::facet_point::FACET_NODES;
 use crate::math::{Vec3, add_scaled, cross, distance, dot, norm, scale, sub};
 use crate::shape::ElementKind;
+use crate::tolerance::SAME;
 
 /// The geometry of a facet: the coefficients of `1, ξ, η, ξη, ξ², η², ξ²η, ξη²`, among which are all that lines, triangles and quadrilaterals, linear or
 /// quadratic, have.
@@ -30,17 +31,10 @@ pub struct Foot {
 }
 
 /// Steps of Newton's method for a projection.
-const ITERATIONS: usize = 25;
+const PROJECTION_STEPS: usize = 25;
 
-/// Step in reference coordinates after which Newton's method, which squares the error, has converged to rounding.
-const LAST_STEP: f64 = 1e-9;
-
-/// Reference coordinates beyond which no projection is sought, and those beyond which one of before is no guide.
-const FAR: f64 = 1e3;
-const NEAR: f64 = 1.5;
-
-/// How far from a right angle, relative to the size of the facet, a projection may be that Newton's method has not settled on.
-const SETTLED: f64 = 1e-10;
+/// Reference coordinates beyond which Newton's method leads nowhere: no projection and no place in a facet is sought there. Tuned.
+pub(super) const FARTHEST: f64 = 1e3;
 
 impl Patch {
     /// Of a facet with these nodes.
@@ -136,7 +130,8 @@ impl Patch {
     /// The same from the projection of a place nearby; from the centre if that leads nowhere.
     pub fn project_near(&self, point: Vec3, xi: [f64; 2]) -> Option<Foot> {
         // Far outside the facet its extension is no guide.
-        let near = xi[0].abs().max(xi[1].abs()) < NEAR;
+        // A guess from before beyond these reference coordinates is no guide.
+        let near = xi[0].abs().max(xi[1].abs()) < 1.5;
         let found = near.then(|| self.project_from(point, xi));
         found.flatten().or_else(|| self.project(point))
     }
@@ -144,7 +139,7 @@ impl Patch {
     fn project_from(&self, point: Vec3, start: [f64; 2]) -> Option<Foot> {
         let mut xi = start;
         let linear = matches!(self.kind, ElementKind::Line2 | ElementKind::Tri3);
-        for _ in 0..ITERATIONS {
+        for _ in 0..PROJECTION_STEPS {
             let (x, a) = self.at(xi);
             let r = sub(point, x);
             let f = [dot(r, a[0]), dot(r, a[1])];
@@ -183,10 +178,11 @@ impl Patch {
                 1.0
             };
             xi = [xi[0] + damp * step[0], xi[1] + damp * step[1]];
-            if linear || (positive && longest < LAST_STEP) {
+            // After such a step Newton's method, which squares the error, has converged to rounding.
+            if linear || (positive && longest < SAME) {
                 return Some(self.foot(xi));
             }
-            if xi[0].abs() + xi[1].abs() > FAR {
+            if xi[0].abs() + xi[1].abs() > FARTHEST {
                 return None;
             }
         }
@@ -197,7 +193,8 @@ impl Patch {
             _ => norm(foot.a[0]).max(norm(foot.a[1])),
         };
         let miss = dot(r, foot.a[0]).abs().max(dot(r, foot.a[1]).abs());
-        (miss < SETTLED * size * size).then_some(foot)
+        // How far from a right angle a projection may be that Newton's method has not settled on.
+        (miss < 1e-10 * size * size).then_some(foot)
     }
 }
 

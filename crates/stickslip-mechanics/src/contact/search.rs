@@ -3,6 +3,7 @@
 use super::facet_point::FACET_NODES;
 use crate::math::Vec3;
 use crate::shape::ElementKind;
+use crate::tolerance::ROUNDING;
 
 /// An axis-aligned box.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -72,7 +73,8 @@ impl Box3 {
         let (mut enters, mut leaves) = (0.0_f64, f64::INFINITY);
         for i in 0..3 {
             // Facets that are flat along an axis have no extent there.
-            let room = ROOM * (self.high[i].abs() + self.low[i].abs());
+            // Room around a box for a ray that touches it.
+            let room = ROUNDING * (self.high[i].abs() + self.low[i].abs());
             let (low, high) = (self.low[i] - room, self.high[i] + room);
             if along[i] == 0.0 {
                 if from[i] < low || from[i] > high {
@@ -121,9 +123,6 @@ pub struct Tree {
 }
 
 const LEAF: usize = 4;
-
-/// Room around a box for a ray that touches it, relative to its coordinates: rounding.
-const ROOM: f64 = 1e-12;
 
 /// More nodes than any walk through a tree has before it: two for each level, which halves its items.
 const STACK: usize = 2 * usize::BITS as usize;

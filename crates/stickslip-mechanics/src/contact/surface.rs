@@ -142,8 +142,8 @@ pub fn connect(facets: &mut [Facet]) {
     }
 }
 
-/// Angle between neighbouring facets beyond which they meet at an edge of the body `[rad]`.
-const SHARP: f64 = 0.5;
+/// Angle between neighbouring facets beyond which they meet at an edge of the body `[rad]`. Tuned.
+pub const EDGE_ANGLE: f64 = 0.5;
 
 /// How a smooth surface turns from facet to facet: for each edge that two facets share, the angle between their normals `[rad]` and the distance of
 /// their centres. Edges of the body are left out.
@@ -166,7 +166,7 @@ pub fn turns(facets: &[&Facet], x: &[Vec3]) -> Vec<[f64; 2]> {
         &[a, b] => {
             let (a, b) = (centre(a), centre(b));
             let angle = angle(a.normal, b.normal);
-            (angle < SHARP).then(|| [angle, distance(a.x, b.x)])
+            (angle < EDGE_ANGLE).then(|| [angle, distance(a.x, b.x)])
         }
         _ => None,
     };
@@ -195,7 +195,7 @@ pub fn concave_offsets(facets: &[&Facet], x: &[Vec3]) -> Vec<f64> {
         let &[a, b] = pair.as_slice() else { continue };
         let (p, q) = (centre(a), centre(b));
         let turned = angle(p.normal, q.normal);
-        if turned >= SHARP {
+        if turned >= EDGE_ANGLE {
             continue;
         }
         let way = sub(q.x, p.x);

@@ -10,6 +10,7 @@ use super::facet_point::{FACET_NODES, evaluate};
 use super::search::Tree;
 use super::surface::Facet;
 use crate::math::{Vec3, add_scaled, cross, distance, dot, norm, scale, sub};
+use crate::tolerance::NEGLIGIBLE;
 
 /// Depths behind the facets of a surface at which a point is none of them any more.
 #[derive(Debug, Clone, Default)]
@@ -17,14 +18,8 @@ pub struct Walls {
     depths: OnceLock<Vec<f64>>,
 }
 
-/// Part of the thickness up to which a point is behind a facet.
-const HALF: f64 = 0.5;
-
-/// Cosine of the angle by which the other face has to look away.
-const AWAY: f64 = 0.1;
-
-/// How far a ray may pass by a facet and meet it, relative to its size: it must not slip through between two.
-const SLIT: f64 = 1e-6;
+/// Cosine of the angle by which the other face has to look away. Tuned.
+const LOOKING_AWAY: f64 = 0.1;
 
 impl Walls {
     /// Of facets with nodes at `x` in the reference configuration: by facet the depth behind it down to which it may be met, infinite where no other face lies
@@ -44,7 +39,7 @@ pub fn depth_behind(walls: &[f64], facet: usize) -> f64 {
 pub fn depths(facets: &[Facet], x: &[Vec3]) -> Vec<f64> {
     let middles: Vec<(Vec3, Vec3)> = facets.iter().map(|f| middle(f, x)).collect();
     // Nothing lies behind facets that all look the same way.
-    let opposed = |&(_, n): &(Vec3, Vec3)| dot(n, middles[0].1) < -AWAY;
+    let opposed = |&(_, n): &(Vec3, Vec3)| dot(n, middles[0].1) < -LOOKING_AWAY;
     let mut any = middles.iter().skip(1).any(opposed);
     if !any && facets.len() > 1 {
         let (mut low, mut high) = (middles[0].1, middles[0].1);
@@ -54,7 +49,7 @@ pub fn depths(facets: &[Facet], x: &[Vec3]) -> Vec<f64> {
                 high[i] = high[i].max(n[i]);
             }
         }
-        any = (0..3).any(|i| low[i] < -AWAY && high[i] > AWAY);
+        any = (0..3).any(|i| low[i] < -LOOKING_AWAY && high[i] > LOOKING_AWAY);
     }
     if !any {
         return Vec::new();
@@ -70,9 +65,11 @@ pub fn depths(facets: &[Facet], x: &[Vec3]) -> Vec<f64> {
             let inward = scale(-1.0, normal);
             tree.along(from, inward, &mut crossed);
             let beyond = crossed.iter();
-            let beyond = beyond.filter(|&&g| dot(middles[g].1, normal) < -AWAY && !meet(f, g));
+            let beyond =
+                beyond.filter(|&&g| dot(middles[g].1, normal) < -LOOKING_AWAY && !meet(f, g));
             let thickness = beyond.filter_map(|&g| meets(&facets[g], x, from, inward));
-            HALF * thickness.fold(f64::INFINITY, f64::min)
+            // A point is behind a facet up to half of the thickness.
+            0.5 * thickness.fold(f64::INFINITY, f64::min)
         })
         .collect();
     match all.iter().any(|d| d.is_finite()) {
@@ -101,7 +98,8 @@ fn meets(facet: &Facet, x: &[Vec3], from: Vec3, along: Vec3) -> Option<f64> {
         let to = sub(from, at(0));
         let place = across(to, along) / slant;
         let way = across(to, line) / slant;
-        let hit = (-SLIT..=1.0 + SLIT).contains(&place) && way > 0.0;
+        // A ray meets a facet that it passes this near to: it must not slip through between two.
+        let hit = (-NEGLIGIBLE..=1.0 + NEGLIGIBLE).contains(&place) && way > 0.0;
         return hit.then_some(way);
     }
     let fan = (1..corners.len() - 1).filter_map(|k| {
@@ -110,7 +108,7 @@ fn meets(facet: &Facet, x: &[Vec3], from: Vec3, along: Vec3) -> Option<f64> {
         let way = dot(sub(a, from), normal) / dot(along, normal);
         let p = add_scaled(from, way, along);
         let side = |a: Vec3, b: Vec3| {
-            let room = SLIT * norm(normal) * distance(a, b);
+            let room = NEGLIGIBLE * norm(normal) * distance(a, b);
             dot(cross(sub(b, a), sub(p, a)), normal) >= -room * norm(normal).sqrt()
         };
         (way > 0.0 && side(a, b) && side(b, c) && side(c, a)).then_some(way)

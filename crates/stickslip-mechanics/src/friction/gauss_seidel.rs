@@ -13,13 +13,11 @@ pub struct GaussSeidel {
 }
 
 /// Sweeps between two looks at the error, which costs as much as a sweep.
-const LOOK: usize = 10;
+const SWEEPS_A_LOOK: usize = 10;
 
-/// Looks after which it must have fallen to a part of what it was, or the sweeps gain nothing; where there are more sweeps, a tenth of them.
-const PATIENCE: usize = 10;
-
-/// That part.
-const GAIN: f64 = 0.9;
+/// Looks after which the error must have fallen to 0.9 of what it was, or the sweeps gain nothing; where there are more sweeps, a tenth of
+/// them.
+const LOOK_PATIENCE: usize = 10;
 
 impl FrictionSolver for GaussSeidel {
     fn name(&self) -> &'static str {
@@ -35,19 +33,20 @@ impl FrictionSolver for GaussSeidel {
         let own: Vec<[f64; 9]> = (0..problem.points()).map(|k| problem.own(k)).collect();
         let mut forces = start.to_vec();
         let mut best = Best::new(&forces, map::error(problem, &forces));
-        let patience = PATIENCE.max(self.sweeps / (10 * LOOK));
+        let patience = LOOK_PATIENCE.max(self.sweeps / (10 * SWEEPS_A_LOOK));
         let mut seen = vec![best.error()];
         for sweep in 1..=self.sweeps {
             for (k, block) in own.iter().enumerate() {
                 visit(problem, k, block, stiffness[k], &mut forces);
             }
-            if sweep % LOOK != 0 && sweep != self.sweeps {
+            if sweep % SWEEPS_A_LOOK != 0 && sweep != self.sweeps {
                 continue;
             }
             best.see(&forces, map::error(problem, &forces));
             seen.push(best.error());
             let gains = match seen.len().checked_sub(patience + 1) {
-                Some(before) => best.error() <= GAIN * seen[before],
+                // The part to which the error must have fallen.
+                Some(before) => best.error() <= 0.9 * seen[before],
                 None => true,
             };
             if best.error() <= tolerance || !gains {

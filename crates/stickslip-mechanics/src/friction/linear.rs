@@ -3,9 +3,6 @@
 use faer::linalg::solvers::Solve;
 use faer::{Mat, MatRef};
 
-/// Part of the largest pivot below which a direction is not determined.
-const RANK: f64 = 1e-11;
-
 /// The solution of `a x = b` by elimination with row exchanges.
 pub(super) fn eliminate(a: &Mat<f64>, b: &[f64]) -> Vec<f64> {
     let right = Mat::from_fn(b.len(), 1, |i, _| b[i]);
@@ -24,7 +21,8 @@ pub(super) fn least_squares(a: &Mat<f64>, b: &[f64]) -> Vec<f64> {
     let upper = factor.R();
     let largest = upper[(0, 0)].abs();
     let rank = (0..n)
-        .take_while(|&i| upper[(i, i)].abs() > RANK * largest)
+        // A direction with a pivot below this part of the largest is not determined.
+        .take_while(|&i| upper[(i, i)].abs() > 1e-11 * largest)
         .count();
     let right = Mat::from_fn(n, 1, |i, _| b[i]);
     let turned = factor.compute_Q().transpose() * &right;

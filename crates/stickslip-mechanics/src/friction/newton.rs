@@ -37,19 +37,17 @@ pub struct NewtonInForces {
 }
 
 /// Most iterations unless somebody says otherwise. Where it succeeds it needs below 70 on all problems that were measured.
-const MOST: usize = 100;
+const MOST_NEWTON_ITERATIONS: usize = 100;
 
-/// Iterations in which the error must fall to a part of what it was, or the method gains nothing.
-const PATIENCE: usize = 20;
-
-/// That part.
-const GAIN: f64 = 0.5;
+/// Iterations in which the error must fall to half of what it was, or the method gains nothing.
+const NEWTON_PATIENCE: usize = 20;
 
 /// Halvings of a step. More of them end where the norm has a minimum that is no zero.
-const HALVINGS: usize = 6;
+const STEP_HALVINGS: usize = 6;
 
-/// The largest compliance that a proximal step adds, relative to that of the point. It is the error where that is smaller: steps are then fast in the end.
-const PROXIMAL: f64 = 1e-2;
+/// The largest compliance that a proximal step adds, relative to that of the point. It is the error where that is smaller: steps are then
+/// fast in the end. Tuned: with 18 problems of the test set of Siconos and 410 random stacks.
+const LARGEST_ADDED_COMPLIANCE: f64 = 1e-2;
 
 impl NewtonInForces {
     /// With as many iterations as are worth it.
@@ -57,7 +55,7 @@ impl NewtonInForces {
         NewtonInForces {
             step,
             length,
-            most: MOST,
+            most: MOST_NEWTON_ITERATIONS,
         }
     }
 }
@@ -104,12 +102,12 @@ impl FrictionSolver for NewtonInForces {
             polished = error <= tolerance;
             let proximal = match self.step {
                 Step::LeastSquares => 0.0,
-                Step::Proximal => error.min(PROXIMAL),
+                Step::Proximal => error.min(LARGEST_ADDED_COMPLIANCE),
             };
             let direction = Linearised::new(problem, &stiffness, &forces, &motion, &map)
                 .direction(self.step, proximal);
             let mut part = 1.0;
-            for halving in 0..=HALVINGS {
+            for halving in 0..=STEP_HALVINGS {
                 let next: Vec<f64> = forces
                     .iter()
                     .zip(&direction)
@@ -117,7 +115,7 @@ impl FrictionSolver for NewtonInForces {
                     .collect();
                 let found = evaluate(&next);
                 let falls = found.2 < error;
-                if falls || self.length == Length::Full || halving == HALVINGS {
+                if falls || self.length == Length::Full || halving == STEP_HALVINGS {
                     forces = next;
                     (motion, map, error) = found;
                     break;
@@ -126,8 +124,9 @@ impl FrictionSolver for NewtonInForces {
             }
             best.see(&forces, error);
             seen.push(best.error());
-            let before = seen.len().checked_sub(PATIENCE + 1);
-            if before.is_some_and(|before| best.error() > GAIN * seen[before]) {
+            let before = seen.len().checked_sub(NEWTON_PATIENCE + 1);
+            // The part to which the error must have fallen.
+            if before.is_some_and(|before| best.error() > 0.5 * seen[before]) {
                 return best.after(iteration + 1);
             }
         }

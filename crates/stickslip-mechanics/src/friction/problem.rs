@@ -1,3 +1,5 @@
+use crate::tolerance::ROUNDING;
+
 use super::cone::Cone;
 
 /// Limit of the friction force at a point: `adhesion + mu p` at a contact force `p`, never below zero.
@@ -144,12 +146,9 @@ impl FrictionProblem {
         let typical = if all > 0.0 { all } else { d as f64 };
         (0..self.points())
             .map(|k| match trace(k) {
-                own if own > NOTHING * typical => d as f64 / own,
+                own if own > ROUNDING * typical => d as f64 / own,
                 _ => d as f64 / typical,
             })
             .collect()
     }
 }
-
-/// Part of the typical compliance of points below which one has none of its own.
-const NOTHING: f64 = 1e-12;

@@ -11,22 +11,10 @@ use crate::friction::map;
 pub struct ProximalPoint;
 
 /// Most problems.
-const MOST: usize = 200;
-
-/// The artificial compliance to start with, relative to that of the point, and its bounds.
-const FIRST: f64 = 1.0;
-const LARGEST: f64 = 100.0;
-const SMALLEST: f64 = 1e-8;
-
-/// What it is multiplied by after a problem that was solved, and one that was not.
-const SOLVED: f64 = 0.3;
-const FAILED: f64 = 5.0;
+const MOST_PROBLEMS: usize = 200;
 
 /// Sweeps where Newton's method fails on a problem.
 const SWEEPS: usize = 100;
-
-/// Part of the error to which a problem is solved.
-const INNER: f64 = 0.1;
 
 impl FrictionSolver for ProximalPoint {
     fn name(&self) -> &'static str {
@@ -39,11 +27,12 @@ impl FrictionSolver for ProximalPoint {
         let inner = NewtonInForces::new(Step::Proximal, Length::Falling);
         let mut forces = start.to_vec();
         let mut best = Best::new(&forces, map::error(problem, &forces));
-        let mut added = FIRST;
+        // The artificial compliance, relative to that of the point.
+        let mut added = 1.0;
         let mut iterations = 0;
         let mut near = problem.clone();
-        for _ in 0..MOST {
-            if best.error() <= tolerance || added > LARGEST {
+        for _ in 0..MOST_PROBLEMS {
+            if best.error() <= tolerance || added > 100.0 {
                 break;
             }
             for i in 0..n {
@@ -51,7 +40,8 @@ impl FrictionSolver for ProximalPoint {
                 near.operator[i * (n + 1)] = problem.operator[i * (n + 1)] + own;
                 near.free[i] = problem.free[i] - own * forces[i];
             }
-            let wanted = INNER * best.error().min(1.0);
+            // Each problem is solved to a tenth of the error.
+            let wanted = 0.1 * best.error().min(1.0);
             let mut found = inner.solve(&near, &forces, wanted);
             iterations += found.iterations;
             if found.error > wanted {
@@ -63,9 +53,10 @@ impl FrictionSolver for ProximalPoint {
             if found.error <= wanted {
                 forces = found.forces;
                 best.see(&forces, map::error(problem, &forces));
-                added = (added * SOLVED).max(SMALLEST);
+                // The next problem is nearer to the given one after one that was solved, and farther from it after one that was not.
+                added = (added * 0.3).max(1e-8);
             } else {
-                added *= FAILED;
+                added *= 5.0;
             }
         }
         best.after(iterations)

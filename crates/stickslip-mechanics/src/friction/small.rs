@@ -11,9 +11,8 @@ pub fn solve(d: usize, mut a: [f64; 9], mut b: [f64; 3]) -> Option<[f64; 3]> {
     for k in 0..d {
         let best = (k..d).max_by(|&i, &j| a[i * d + k].abs().total_cmp(&a[j * d + k].abs()))?;
         // not a number is no pivot either
-        if a[best * d + k].abs().partial_cmp(&(SINGULAR * size))
-            != Some(std::cmp::Ordering::Greater)
-        {
+        // A block with a pivot below this part of its largest entry counts as singular.
+        if a[best * d + k].abs().partial_cmp(&(1e-13 * size)) != Some(std::cmp::Ordering::Greater) {
             return None;
         }
         for c in 0..d {
@@ -34,6 +33,3 @@ pub fn solve(d: usize, mut a: [f64; 9], mut b: [f64; 3]) -> Option<[f64; 3]> {
     }
     Some(b)
 }
-
-/// Pivot below which a block counts as singular, relative to its largest entry.
-const SINGULAR: f64 = 1e-13;

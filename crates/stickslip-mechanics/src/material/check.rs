@@ -4,12 +4,7 @@ use std::fmt;
 
 use super::stiffness::Stiffness;
 use crate::math::symmetric_eigen;
-
-/// The smallest eigenvalue must exceed this fraction of the largest: below it, rounding decides the sign.
-const ELLIPTICITY: f64 = 1e-12;
-
-/// Pairs `a_ij`, `a_ji` may differ by this fraction of the largest entry (printed tables are rounded).
-const SYMMETRY: f64 = 1e-6;
+use crate::tolerance::{NEGLIGIBLE, ROUNDING};
 
 /// A material that cannot be used.
 #[derive(Debug, Clone, PartialEq)]
@@ -110,7 +105,8 @@ pub(super) fn elliptic(c: &Stiffness, parameter: &str) -> Result<(), MaterialErr
         ));
     }
     let (values, _) = symmetric_eigen(&mandel(c));
-    if values[0] > ELLIPTICITY * values[5] {
+    // Below this part of the largest eigenvalue, rounding decides the sign of the smallest.
+    if values[0] > ROUNDING * values[5] {
         return Ok(());
     }
     Err(MaterialError::new(
@@ -127,7 +123,8 @@ pub(super) fn symmetric(c: &mut Stiffness, parameter: &str) -> Result<(), Materi
     for i in 0..6 {
         for j in 0..i {
             let (a, b) = (c[i][j], c[j][i]);
-            if (a - b).abs() > SYMMETRY * largest {
+            // Printed tables are rounded.
+            if (a - b).abs() > NEGLIGIBLE * largest {
                 return Err(MaterialError::new(
                     parameter,
                     format!(

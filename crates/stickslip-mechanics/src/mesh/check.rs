@@ -6,7 +6,7 @@ use crate::error::MeshError;
 use crate::math::distance;
 use crate::mesh::geometry;
 
-/// A Jacobian below this part of that of a right-angled cell is collapsed.
+/// A Jacobian below this part of that of a right-angled cell is collapsed. Tuned.
 const COLLAPSED: f64 = 1e-8;
 
 /// Checks the structure (indices in range, lengths that fit), the coordinates and the Jacobian of every cell at

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::{CellRef, FacetRef, Mesh};
 use crate::error::MeshError;
 use crate::math::{Vec3, add, distance, dot, scale, sub};
+use crate::tolerance::SAME;
 
 /// A cut through a mesh.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -16,9 +17,6 @@ pub struct Cut {
     /// Points on the near side, ascending, each with the one on the far side at the same place.
     pub pairs: Vec<[usize; 2]>,
 }
-
-/// Distance of the centre of a cell from a plane, relative to how far centres lie apart across it, that is rounding.
-const ON_PLANE: f64 = 1e-9;
 
 /// The faces between cells whose centres lie on different sides of a plane, as faces of the cells against the normal; of several parts that share no
 /// point the one nearest to `point`. Where faces lie on the plane these are they, elsewhere the layer of faces that is nearest.
@@ -38,7 +36,7 @@ pub fn faces_along(
         [low.min(h), high.max(h)]
     });
     // Cells whose centres lie on the plane are below it, whatever rounding says: otherwise it would run over some of a row and under others.
-    let above = |facet: &FacetRef| height(&facet.cell) > ON_PLANE * (high - low);
+    let above = |facet: &FacetRef| height(&facet.cell) > SAME * (high - low);
     let mut found = Vec::new();
     for users in mesh.shared_faces().chunk_by(|a, b| a.0 == b.0) {
         let [(_, a), (_, b)] = users else { continue };

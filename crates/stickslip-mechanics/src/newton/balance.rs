@@ -17,9 +17,6 @@ pub(super) struct Balance {
     pub floor: f64,
 }
 
-/// Roundings of the largest term that the force at a dof of the bulk may be off by: a row of a stiffness has terms of both signs.
-const ROUNDINGS: f64 = 4.0;
-
 impl Balance {
     /// Evaluates all forces from the state `from` at the state `at`; `out` gets those of the interfaces, with their tangents if `tangent`.
     pub fn evaluate(
@@ -61,7 +58,9 @@ impl Balance {
                 let stiffness = system.bulk.diagonal(i);
                 // Displacements that go back to nothing keep the rounding of those that they come from.
                 let size = f64::max(at.u[i].abs(), from.u[i].abs());
-                bulk += (ROUNDINGS * f64::EPSILON * stiffness * size).powi(2);
+                // Roundings of the largest term that the force at a dof of the bulk may be off by: a row of a stiffness has terms of both
+                // signs.
+                bulk += (4.0 * f64::EPSILON * stiffness * size).powi(2);
                 norm += forces[i] * forces[i];
             }
         }

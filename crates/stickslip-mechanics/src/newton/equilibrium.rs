@@ -10,18 +10,12 @@ use crate::system::{Assembler, Cause, StepFailure};
 /// Iterations after which a residual that has not fallen counts as stalled.
 const STALL: usize = 8;
 
-/// Part of the residual before them that must be left behind.
-const STALLED: f64 = 0.1;
-
 /// Part of what Newton still needs to which a linear system is solved once the status of points has settled: an inexact Newton method
-/// ([Dembo, Eisenstat and Steihaug](stickslip_base::references::dembo_1982)).
+/// ([Dembo, Eisenstat and Steihaug](stickslip_base::references::dembo_1982)). The value is tuned.
 const FORCING: f64 = 0.1;
 
 /// The finest relative residual of a linear system: double precision gives no more.
-const FINEST: f64 = 1e-13;
-
-/// Part of the residual that an iteration in which no point changes status may leave: where it leaves more, the tangent lacks something.
-const SLOW: f64 = 0.1;
+const FINEST_RESIDUAL: f64 = 1e-13;
 
 /// Iterations after which the tangent is whole in any case.
 const PATIENT: usize = 4;
@@ -80,7 +74,8 @@ pub(super) fn equilibrium(attempt: &mut Attempt, round: usize) -> Result<Converg
         }
         let slow = iteration > 0
             && attempt.system.tally().changed == 0
-            && residual > SLOW * reported[iteration - 1];
+            // Where an iteration in which no point changes status leaves more of the residual, the tangent lacks something.
+            && residual > 0.1 * reported[iteration - 1];
         if linear.curvature == Curvature::Unasked && (slow || iteration >= PATIENT) {
             linear.curvature = Curvature::Wanted;
         }
@@ -150,7 +145,8 @@ pub(super) fn stalled(residuals: &[f64]) -> bool {
     };
     let (before, after) = residuals.split_at(split);
     let least = |r: &[f64]| r.iter().copied().fold(f64::INFINITY, f64::min);
-    before.len() >= STALL && least(after) > STALLED * least(before)
+    // The part of the residual before them that must be left behind.
+    before.len() >= STALL && least(after) > 0.1 * least(before)
 }
 
 /// Solves for Newton's step; returns the Krylov iterations.
@@ -187,7 +183,7 @@ fn solve(
         Curvature::Unasked | Curvature::Wanted => system.curve(out),
         Curvature::Refused => {}
     }
-    let wanted = wanted.clamp(FINEST, coarse.max(FINEST));
+    let wanted = wanted.clamp(FINEST_RESIDUAL, coarse.max(FINEST_RESIDUAL));
     let counts = &mut *attempt.statistics;
     let solved = (system.bulk).solve(out, b, wanted, du, &settings, &mut *counts);
     let krylov = match solved {

@@ -27,26 +27,19 @@ pub struct BodyPoints {
 }
 
 /// Iterations after which a hierarchy is made anew if it is not fresh.
-const PATIENCE: usize = 40;
+const HIERARCHY_PATIENCE: usize = 40;
 
 /// Iterations after which a fresh hierarchy is given up.
-const MOST: usize = 200;
+const MOST_GRID_ITERATIONS: usize = 200;
 
 /// Iterations after which GMRES starts again.
 const RESTART: usize = 60;
 
-/// Part of a facet that points may move along it before the finest level is made anew: stiff contact feels it.
-const DRIFT: f64 = 0.03;
+/// Part of a facet that points may move along it before the finest level is made anew: stiff contact feels it. Tuned.
+const FINEST_LEVEL_DRIFT: f64 = 0.03;
 
-/// The same where the iteration has become slow.
-const SMALL_DRIFT: f64 = 1e-3;
-
-/// Part of the stiffnesses that are no gap stiffnesses that may change before the hierarchy is made anew. What single points do, one that opens or comes to lie
-/// on another facet, costs single iterations, and a hierarchy as many as a whole solution.
-const CHANGE: f64 = 0.1;
-
-/// Resistance to a rigid motion, relative to the diagonals, below which a body counts as floating.
-const FLOATING: f64 = 1e-8;
+/// The same where the iteration has become slow. Tuned.
+const SLOW_DRIFT: f64 = 1e-3;
 
 /// A hierarchy that outlives the state it was made at.
 ///
@@ -164,7 +157,11 @@ impl Made {
             x,
             GmresSettings {
                 tolerance,
-                max_iterations: if self.fresh { MOST } else { most },
+                max_iterations: if self.fresh {
+                    MOST_GRID_ITERATIONS
+                } else {
+                    most
+                },
                 restart: RESTART,
             },
         )
@@ -289,7 +286,7 @@ impl Grids {
         statistics.seconds.factor += started.elapsed().as_secs_f64();
         let mut x = vec![0.0; b.len()];
         let mut spent = 0;
-        for most in [2 * PATIENCE, MOST] {
+        for most in [2 * HIERARCHY_PATIENCE, MOST_GRID_ITERATIONS] {
             let Some(made) = &mut self.made else {
                 return Ok(None);
             };
@@ -301,7 +298,7 @@ impl Grids {
             if !report.relative_residual.is_finite() {
                 return Err(not_finite());
             }
-            made.slow = report.iterations > PATIENCE;
+            made.slow = report.iterations > HIERARCHY_PATIENCE;
             if report.converged {
                 return Ok(Some((x, spent)));
             }
@@ -339,7 +336,13 @@ impl Grids {
             _ => return self.set_up(operator, statistics),
         };
         let drift = drift(operator, &made.gaps);
-        if drift > if made.slow { SMALL_DRIFT } else { DRIFT } {
+        if drift
+            > if made.slow {
+                SLOW_DRIFT
+            } else {
+                FINEST_LEVEL_DRIFT
+            }
+        {
             let gaps = variables(operator);
             if !gaps.points().eq(made.gaps.points()) {
                 return self.set_up(operator, statistics);
@@ -531,7 +534,9 @@ fn is_gap_stiffness(
         .iter()
         .filter(|dof| !operator.fixed[**dof]);
     let near = drifts.get(&point).map_or(&[][..], |list| list.as_slice());
-    let mut near = near.iter().filter(|(drift, _)| *drift <= DRIFT);
+    let mut near = near
+        .iter()
+        .filter(|(drift, _)| *drift <= FINEST_LEVEL_DRIFT);
     match near.next() {
         Some((_, pair)) => others.all(|dof| pair.facet.iter().any(|(p, _)| *p == dof / dim)),
         None => others.next().is_none(),
@@ -579,7 +584,9 @@ fn changed(before: &BTreeMap<usize, f64>, now: &Groups) -> bool {
     let apart = |point: &usize| (at(&now, *point) - at(before, *point)).abs();
     let apart: f64 = now.keys().chain(gone).map(apart).sum();
     let whole: f64 = now.values().chain(before.values()).sum();
-    apart > CHANGE * whole
+    // Part of the stiffnesses that are no gap stiffnesses that may change before the hierarchy is made anew. What single points do, one
+    // that opens or comes to lie on another facet, costs single iterations, and a hierarchy as many as a whole solution.
+    apart > 0.1 * whole
 }
 
 /// The matrix in gap variables.
@@ -609,7 +616,8 @@ fn floats(operator: Operator, points: &BodyPoints) -> bool {
             cost[body] += out[dof];
             scale[body] += diagonal[dof];
         }
-        cost.iter().zip(&scale).any(|(c, s)| c.abs() < FLOATING * s)
+        // A body that resists a rigid motion by less than this part of the diagonals counts as floating.
+        cost.iter().zip(&scale).any(|(c, s)| c.abs() < 1e-8 * s)
     })
 }
 

@@ -7,24 +7,10 @@ use crate::system::{Assembler, Cause, StepFailure};
 /// Iterations in which points find their status: a step may make matters much worse, and it is too early to say that nothing is gained.
 const EARLY: usize = 4;
 
-/// What a full step may multiply the residual by in the first iterations, and later. Status may have to change against it; only what looks like
-/// divergence is shortened.
-const EARLY_GROWTH: f64 = 1e3;
-const GROWTH: f64 = 10.0;
+/// Factor by which a step may multiply the residual once points chatter: every step has to gain a little. Tuned.
+const LEAST_GAIN: f64 = 0.99;
 
-/// What it may be multiplied by once points chatter: every step has to gain a little.
-const GAIN: f64 = 0.99;
-
-/// Part of the residual of [`BACK`] iterations before that must be left behind for an iteration not to count as stuck.
-const STUCK: f64 = 0.5;
 const BACK: usize = 3;
-
-/// Part of the residual at which steps began to have to gain, below which they need not any more.
-const RELEASED: f64 = 0.01;
-
-/// Growth of the out-of-balance force after which a step is halved without counting: a compliant law that has hardly been touched is so soft that
-/// the step overshoots by orders of magnitude.
-const LOST: f64 = 1e4;
 
 /// Most halvings even so.
 const MOST_HALVINGS: usize = 40;
@@ -60,15 +46,19 @@ impl StepControl {
     pub fn demand(&mut self, residuals: &[f64], before: f64, in_play: f64) -> Demand {
         let iteration = residuals.len() - 1;
         let relative = residuals[iteration];
-        if iteration >= EARLY && relative > STUCK * residuals[iteration - BACK] {
+        // An iteration counts as stuck if it has left behind less than half of the residual of [`BACK`] iterations before.
+        if iteration >= EARLY && relative > 0.5 * residuals[iteration - BACK] {
             self.gaining_since = self.gaining_since.max(relative);
-        } else if relative < RELEASED * self.gaining_since {
+        } else if relative < 0.01 * self.gaining_since {
+            // Steps need not gain any more below this part of the residual at which they began to have to.
             self.gaining_since = 0.0;
         }
         let growth = match (self.gaining_since > 0.0, iteration < EARLY) {
-            (true, _) => GAIN,
-            (false, true) => EARLY_GROWTH,
-            (false, false) => GROWTH,
+            (true, _) => LEAST_GAIN,
+            // A full step may multiply the residual by this in the first iterations, and by less later. Status may have to change against
+            // it; only what looks like divergence is shortened.
+            (false, true) => 1e3,
+            (false, false) => 10.0,
         };
         Demand {
             before,
@@ -86,12 +76,14 @@ impl Demand {
     /// Whether it may be a jump that a full step leads to. Where points leave the surface or come back to it forces jump, by no more than was in play; shorter steps would
     /// come nearer and nearer to the edge and gain less and less. Not where points chatter: there a step has to gain.
     fn lets_jump(&self, measure: f64) -> bool {
-        self.growth > GAIN && measure <= self.in_play
+        self.growth > LEAST_GAIN && measure <= self.in_play
     }
 
     /// Halvings after which the best step is taken, where the last length led to this measure.
     fn halvings(&self, measure: f64, line_search: usize) -> usize {
-        let lost = measure.is_nan() || measure > LOST * self.before;
+        // Growth of the out-of-balance force after which a step is halved without counting: a compliant law that has hardly been touched is
+        // so soft that the step overshoots by orders of magnitude.
+        let lost = measure.is_nan() || measure > 1e4 * self.before;
         if line_search > 0 && lost {
             MOST_HALVINGS
         } else {

@@ -19,7 +19,9 @@ const FOUR: [(f64, f64); 4] = [
     (0.339_981_043_584_856_3, 0.652_145_154_862_546_1),
     (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
 ];
-const ROOT_THIRD: f64 = 0.577_350_269_189_625_8;
+/// `1 / √3`, the coordinate of the 2-point rule.
+pub const ROOT_THIRD: f64 = 0.577_350_269_189_625_8;
+/// `√(3/5)`, the coordinate of the 3-point rule.
 const ROOT_THREE_FIFTHS: f64 = 0.774_596_669_241_483_4;
 
 /// The product of `n` points a direction in `dim` directions; `N = n^dim`. The first direction runs fastest.

@@ -6,7 +6,7 @@
 //! hex20: edges 01 12 23 30, 45 56 67 74, 04 15 26 37; wedge15: edges 01 12 20, 34 45 53, 03 14 25), and faces of hexahedra
 //! and wedges, which are numbered as in Abaqus; the Gmsh reader translates.
 
-mod gauss;
+pub(crate) mod gauss;
 mod hex20;
 mod hex8;
 mod kind;

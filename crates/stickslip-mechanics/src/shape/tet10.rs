@@ -17,16 +17,16 @@ static FACES: [Face; 4] = [
 static EDGES: [[usize; 2]; 6] = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 3], [2, 3]];
 
 /// `(5 - √5) / 20`
-const NEAR: f64 = 0.138_196_601_125_010_5;
+const SMALL_COORDINATE: f64 = 0.138_196_601_125_010_5;
 /// `(5 + 3 √5) / 20`
-const FAR: f64 = 0.585_410_196_624_968_5;
+const LARGE_COORDINATE: f64 = 0.585_410_196_624_968_5;
 
 /// Exact for quadratics.
 static RULE: [QuadraturePoint; 4] = [
-    point(NEAR, NEAR, NEAR),
-    point(FAR, NEAR, NEAR),
-    point(NEAR, FAR, NEAR),
-    point(NEAR, NEAR, FAR),
+    point(SMALL_COORDINATE, SMALL_COORDINATE, SMALL_COORDINATE),
+    point(LARGE_COORDINATE, SMALL_COORDINATE, SMALL_COORDINATE),
+    point(SMALL_COORDINATE, LARGE_COORDINATE, SMALL_COORDINATE),
+    point(SMALL_COORDINATE, SMALL_COORDINATE, LARGE_COORDINATE),
 ];
 
 const fn point(x: f64, y: f64, z: f64) -> QuadraturePoint {

@@ -68,9 +68,6 @@ pub(super) fn product(a: &Mat3, b: &Mat3) -> Mat3 {
     std::array::from_fn(|i| columns.map(|column| column[i]))
 }
 
-/// Angle below which series are as good as the functions they are of.
-const SMALL: f64 = 1e-4;
-
 /// The rotation of a rotation vector, by Rodrigues' formula, and the matrix `T` of its spin: `δR Rᵀ = [T δθ]×`,
 /// `T = a 1 + b [θ]× + c θ θᵀ` with `a = sin φ / φ`, `b = (1 - cos φ) / φ²`, `c = (1 - a) / φ²`.
 pub(super) fn exponential(theta: Vec3) -> (Mat3, Mat3) {
@@ -81,7 +78,8 @@ pub(super) fn exponential(theta: Vec3) -> (Mat3, Mat3) {
     let turn = rotation(scale(1.0 / angle, theta), angle);
     let square = angle * angle;
     let a = angle.sin() / angle;
-    let (b, c) = if angle < SMALL {
+    // Below this angle series are as good as the functions they are of.
+    let (b, c) = if angle < 1e-4 {
         (0.5 - square / 24.0, 1.0 / 6.0 - square / 120.0)
     } else {
         ((1.0 - angle.cos()) / square, (1.0 - a) / square)

@@ -49,7 +49,7 @@ pub struct Report {
 }
 
 /// Pages larger than this `[bytes]` say so.
-const LARGE: u64 = 25 << 20;
+const LARGE_PAGE: u64 = 25 << 20;
 
 /// The page of a result folder, and what was left out of it.
 ///
@@ -63,7 +63,7 @@ pub fn page(results: &Results, limits: Limits) -> Result<(String, Vec<String>), 
     let waterfalls = crate::plot::waterfalls(results)?;
     let drawings = [drawings.as_slice(), &waterfalls];
     let mut text = page::write(results, &model, &history, drawings, &notes);
-    if text.len() as u64 > LARGE {
+    if text.len() as u64 > LARGE_PAGE {
         notes.push(format!(
             "this page has {:.0} MB; with a lower --limit it keeps fewer times",
             text.len() as f64 / 1e6

@@ -24,7 +24,7 @@ const TABLES: &[(&str, &str)] = &[
 const LONG: usize = 12;
 
 /// Text of a problem longer than this many bytes is not repeated in the page.
-const LONGEST: usize = 200_000;
+const LONGEST_TEXT: usize = 200_000;
 
 /// The section.
 pub fn section(results: &Results) -> String {
@@ -66,7 +66,7 @@ pub fn section(results: &Results) -> String {
         }
     }
     out += "</div>\n";
-    if results.problem_text.len() <= LONGEST {
+    if results.problem_text.len() <= LONGEST_TEXT {
         out += &format!(
             "<details><summary>The whole problem file</summary><pre class=\"source\" tabindex=\"0\">{}</pre></details>\n",
             text(&results.problem_text)

@@ -12,12 +12,6 @@ pub type Box2 = [[f64; 2]; 2];
 /// The box of nothing.
 pub const NOTHING: Box2 = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
 
-/// Room around the patch that presses, relative to it.
-const AROUND: f64 = 0.6;
-
-/// A patch that takes more than this part of the picture is seen well enough with all around it.
-const LARGE: f64 = 0.4;
-
 /// Parts of the model by which sides of an interface may be drawn apart along their normal, and across.
 const APART: [f64; 2] = [0.001, 0.02];
 
@@ -115,10 +109,12 @@ pub fn seen(
             Ok(about(middle, half))
         }
         Zoom::Auto | Zoom::Contact
-            if presses && (zoom == Zoom::Contact || span(patch) < LARGE * span(bounds)) =>
+            // A patch that takes more than 0.4 of the picture is seen well enough with all around it.
+            if presses && (zoom == Zoom::Contact || span(patch) < 0.4 * span(bounds)) =>
         {
             // A single point presses on a spot about it.
-            let wide = ((0.5 + AROUND) * span(patch)).max(0.02 * span(bounds));
+            // Room around the patch that presses, relative to it: 0.6 at each side.
+            let wide = ((0.5 + 0.6) * span(patch)).max(0.02 * span(bounds));
             Ok(about(at.unwrap_or(centre(patch)), [wide; 2]))
         }
         _ => match at {

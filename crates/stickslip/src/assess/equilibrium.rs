@@ -7,6 +7,7 @@ use crate::body::Space;
 use crate::math::{Vec3, add, cross, norm, sub};
 use crate::model::definition::Body;
 use crate::model::limits::Limits;
+use crate::tolerance::NEGLIGIBLE;
 
 /// Resultant of forces about a point.
 #[derive(Debug, Clone, Copy, Default)]
@@ -14,12 +15,6 @@ struct Torsor {
     force: Vec3,
     moment: Vec3,
 }
-
-/// Roundings of stiffness times displacement that sums of forces may be off.
-const ROUNDINGS: f64 = 1e3;
-
-/// Part of the forces that would stop the motion which is no force to speak of.
-const TRIFLE: f64 = 1e-6;
 
 /// What acts on a body.
 #[derive(Debug, Clone, Copy, Default)]
@@ -56,7 +51,8 @@ pub(crate) fn judge_bodies(view: &View, limits: &Limits, gate: &mut Gate) {
     // Before anything touches there may be nothing but what rounding of the displacements leaves.
     let stiff = view.solver.diagonal.iter().zip(&view.frame.state.u);
     let rounding = stiff.map(|(k, u)| (k * u).powi(2)).sum::<f64>().sqrt();
-    let rounding = ROUNDINGS * f64::EPSILON * rounding;
+    // Sums of forces may be off by a thousand roundings of stiffness times displacement.
+    let rounding = 1e3 * f64::EPSILON * rounding;
     let stopping = stopping(view);
     for (body, a) in view.model.bodies.iter().zip(&acting) {
         let moment = if a.arm > 0.0 {
@@ -72,7 +68,8 @@ pub(crate) fn judge_bodies(view: &View, limits: &Limits, gate: &mut Gate) {
             all.map(move |c| view.model.dofs.of(p, c))
         });
         let stop: f64 = dofs.filter_map(|dof| stopping.get(dof)).sum();
-        let scale = a.scale.max(TRIFLE * stop);
+        // Less than this part of the forces that would stop the motion is no force to speak of.
+        let scale = a.scale.max(NEGLIGIBLE * stop);
         let (pair, limit, t) = ([left, scale], limits.equilibrium, view.frame.state.t);
         match view.inertia().is_some() {
             true => gate.note_in_motion(&EQUILIBRIUM, &place, pair, limit, t),

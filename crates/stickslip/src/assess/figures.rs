@@ -74,10 +74,10 @@ pub(crate) static ALL: [&Kind; 25] = [
 ];
 
 /// Forces below this part of the largest of their interface or body are as good as none: figures judge down to a thousandth of the load.
-const LEAST: f64 = 1e-3;
+const LEAST_FORCE: f64 = 1e-3;
 
 /// Forces of an interface below this part of the largest of the model are what the tolerance of Newton's method leaves.
-const TRACE: f64 = 1e-6;
+const TRACE_OF_FORCE: f64 = 1e-6;
 
 pub(crate) static PENETRATION_TO_SIZE: Kind = Kind {
     name: "penetration-to-size",
@@ -90,24 +90,24 @@ pub(crate) static PENETRATION_TO_SIZE: Kind = Kind {
 // Of energies, which go with the square of forces.
 pub(crate) static PENETRATION_TO_APPROACH: Kind = Kind {
     name: "penetration-to-approach",
-    own: LEAST * LEAST,
-    model: TRACE * TRACE,
+    own: LEAST_FORCE * LEAST_FORCE,
+    model: TRACE_OF_FORCE * TRACE_OF_FORCE,
     what: "surfaces penetrate by this part of the elastic approach, and forces are wrong by about as much",
     help: "raise the `factor` of the enforcement, or use enforcement.augmented-lagrangian",
 };
 
 pub(crate) static FALSE_SLIP: Kind = Kind {
     name: "false-slip",
-    own: LEAST * LEAST,
-    model: TRACE * TRACE,
+    own: LEAST_FORCE * LEAST_FORCE,
+    model: TRACE_OF_FORCE * TRACE_OF_FORCE,
     what: "points that stick have slipped by this part of the elastic approach",
     help: "raise the `factor` or `tangential-factor` of the enforcement, or use enforcement.augmented-lagrangian",
 };
 
 pub(crate) static COMPLEMENTARITY: Kind = Kind {
     name: "complementarity",
-    own: LEAST,
-    model: TRACE,
+    own: LEAST_FORCE,
+    model: TRACE_OF_FORCE,
     what: "pressure bridges an open gap of this part of the cells",
     help: "lower `solver.tolerance` or the `error` of the enforcement",
 };
@@ -139,8 +139,8 @@ pub(crate) static TIE_OPENING: Kind = Kind {
 
 pub(crate) static OSCILLATION: Kind = Kind {
     name: "oscillation",
-    own: LEAST,
-    model: TRACE,
+    own: LEAST_FORCE,
+    model: TRACE_OF_FORCE,
     what: "this part of the pressure goes up and down from point to point",
     help: "choose the finer or softer surface as secondary, or match the meshes; forces may be right where pressures are not",
 };
@@ -156,32 +156,32 @@ pub(crate) static EXPLICIT_WEAR: Kind = Kind {
 
 pub(crate) static EXCESS_SHEAR: Kind = Kind {
     name: "excess-shear",
-    own: LEAST,
-    model: TRACE,
+    own: LEAST_FORCE,
+    model: TRACE_OF_FORCE,
     what: "the shear traction exceeds the limit of friction by this part",
     help: "lower `solver.tolerance`",
 };
 
 pub(crate) static FRICTION_LAW: Kind = Kind {
     name: "friction-law",
-    own: LEAST,
-    model: TRACE,
+    own: LEAST_FORCE,
+    model: TRACE_OF_FORCE,
     what: "shear of slipping points differs from the friction limit, or does not oppose slip, by this fraction of it",
     help: "take smaller increments; if that does not help please report it",
 };
 
 pub(crate) static ACTION_REACTION: Kind = Kind {
     name: "action-reaction",
-    own: LEAST,
-    model: TRACE,
+    own: LEAST_FORCE,
+    model: TRACE_OF_FORCE,
     what: "the forces on the two sides differ by this part",
     help: "this should not happen: please report it",
 };
 
 pub(crate) static MOMENT: Kind = Kind {
     name: "moment",
-    own: LEAST,
-    model: TRACE,
+    own: LEAST_FORCE,
+    model: TRACE_OF_FORCE,
     what: "the moments of the forces on the two sides differ by this part",
     help: "surfaces that slide far need kinematics other than small-sliding, and curved ones cells that are small beside the area in contact",
 };
@@ -189,8 +189,8 @@ pub(crate) static MOMENT: Kind = Kind {
 // Newton's method balances all forces of the model together.
 pub(crate) static EQUILIBRIUM: Kind = Kind {
     name: "equilibrium",
-    own: LEAST,
-    model: LEAST,
+    own: LEAST_FORCE,
+    model: LEAST_FORCE,
     what: "forces and moments on the body are out of balance by this part",
     help: "lower `solver.tolerance`",
 };
@@ -207,8 +207,8 @@ pub(crate) static ROTATION: Kind = Kind {
 // Of energies and works, as penetration.
 pub(crate) static ROTATION_TO_APPROACH: Kind = Kind {
     name: "rotation-to-approach",
-    own: LEAST * LEAST,
-    model: TRACE * TRACE,
+    own: LEAST_FORCE * LEAST_FORCE,
+    model: TRACE_OF_FORCE * TRACE_OF_FORCE,
     what: "its bodies have turned and rotations are taken as small: half the square of the angle times the distance from where a body is held is missing in the gap, this part of the elastic approach, and pressures are wrong by about as much",
     help: "let the body turn in a frame: `body.NAME.rotation.with` of the reference point that turns it, `rotation = \"large\"` of what turns freely, `rotation = \"corotational\"` of what bends",
 };
@@ -256,8 +256,8 @@ pub(crate) static DISPLACEMENT: Kind = Kind {
 
 pub(crate) static FALSE_SHEAR: Kind = Kind {
     name: "false-shear",
-    own: LEAST,
-    model: TRACE,
+    own: LEAST_FORCE,
+    model: TRACE_OF_FORCE,
     what: "the surfaces have turned and `small-sliding` keeps the normals of the start: pressure has this part of the limit of friction along them, of itself where there is no friction",
     help: "leave out `kinematics.small-sliding` of the interface: the default follows the surfaces",
 };
@@ -265,16 +265,16 @@ pub(crate) static FALSE_SHEAR: Kind = Kind {
 // Of energies, as penetration.
 pub(crate) static EXPLICIT_OPENING: Kind = Kind {
     name: "explicit-opening",
-    own: LEAST * LEAST,
-    model: TRACE * TRACE,
+    own: LEAST_FORCE * LEAST_FORCE,
+    model: TRACE_OF_FORCE * TRACE_OF_FORCE,
     what: "in an explicit step springs stand for rigid stops and for ties by a penalty, and they give way by this part of what the bodies do",
     help: "refine the cells beside it, whose mass and size bound these springs, tie by multipliers, which explicit steps hold exactly, or take an implicit scheme",
 };
 
 pub(crate) static EXPLICIT_PENETRATION: Kind = Kind {
     name: "explicit-penetration",
-    own: LEAST * LEAST,
-    model: TRACE * TRACE,
+    own: LEAST_FORCE * LEAST_FORCE,
+    model: TRACE_OF_FORCE * TRACE_OF_FORCE,
     what: "in an explicit step springs as stiff as the cells beneath keep surfaces apart and in stick, and they give way by this part of what the bodies do",
     help: "refine the cells at the surfaces, whose mass and size bound these springs, give the interface a law that is compliant, or take an implicit scheme",
 };

@@ -4,7 +4,7 @@
 //! touch: a problem of linear inequalities in as many unknowns as there are free motions. Where there is no such sum, what is left of the loads is the motion
 //! that nothing stops. Of contact the most is believed: every point meets what it faces, and friction is as large as it may be.
 
-use super::doctor::{DoctorCause, Finding, Opposite, Suspect, body_at, let_go};
+use super::doctor::{DoctorCause, FACING_COSINE, Finding, Opposite, Suspect, body_at, let_go};
 use super::view::View;
 use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::contact::law::friction::FrictionPoint;
@@ -18,25 +18,21 @@ use crate::model::rigid::held::{NO_PART, Unheld};
 use crate::model::rigid::modes::{Mode, modes};
 use crate::model::rigid::{drivers, held};
 
-/// Displacements and gaps over the size of the smallest body up to which points are where they were meshed.
-const SMALL: f64 = 1e-3;
+/// Displacements and gaps over the size of the smallest body up to which points are where they were meshed. Tuned.
+const UNMOVED: f64 = 1e-3;
 
-/// Part of the loads that may be left, as points move and surfaces bend a little; and what friction is widened by for the same reason.
-const LEFT: f64 = 2e-3;
-const WIDER: f64 = 1e-3;
+/// Part by which friction is widened, as points move and surfaces bend a little. Tuned.
+const WIDER_FRICTION: f64 = 1e-3;
 
-/// The part that may be left where a figure is wanted as of the mesh.
-const EXACT: f64 = 1e-7;
+/// The part that may be left where a figure is wanted as of the mesh. Tuned.
+const EXACT_REST: f64 = 1e-7;
 
-/// Coefficient of friction that counts as unlimited.
+/// Coefficient of friction that counts as unlimited. No pair of surfaces has as much.
 const UNLIMITED: f64 = 1e3;
 
 /// Pressures, over the stiffness of the cells beneath, and speeds, in sizes of a cell in a unit of time, at which friction is asked for.
 const PRESSURES: [f64; 4] = [1e-6, 1e-4, 1e-3, 1e-1];
 const SPEEDS: [f64; 4] = [0.0, 1e-3, 1.0, 1e3];
-
-/// Cosine between outward normals below which two places face each other.
-const FACING: f64 = -0.3;
 
 /// Most motions, and most points, that are looked at.
 const MOST_MOTIONS: usize = 60;
@@ -100,7 +96,12 @@ pub(crate) fn refuse_unbalanced(view: &View, from: f64, to: f64) -> Option<(Find
             .collect()
     };
     let at_end = loads(to);
-    let rest = holds.rest(&at_end, |mu| mu * (1.0 + WIDER) + WIDER, LEFT)?;
+    // Of the loads 2e-3 may be left, as points move and surfaces bend a little; friction is wider by a thousandth for the same reason.
+    let rest = holds.rest(
+        &at_end,
+        |mu| mu * (1.0 + WIDER_FRICTION) + WIDER_FRICTION,
+        2e-3,
+    )?;
     // What is left pushes against the loads.
     let mut motion = vec![0.0; holds.all.len()];
     for (part, own) in rest.iter().zip(&holds.motions) {
@@ -113,12 +114,12 @@ pub(crate) fn refuse_unbalanced(view: &View, from: f64, to: f64) -> Option<(Find
     let (mut good, mut bad) = (from, to);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (good + bad);
-        match holds.rest(&loads(middle), |mu| mu, EXACT) {
+        match holds.rest(&loads(middle), |mu| mu, EXACT_REST) {
             None => good = middle,
             Some(_) => bad = middle,
         }
     }
-    if bad - from < SMALL * (to - from) {
+    if bad - from < UNMOVED * (to - from) {
         bad = from;
     }
     Some(say_unbalanced(
@@ -241,7 +242,7 @@ fn holds(view: &View, t: f64) -> Option<Holds> {
     let moved = moved
         .map(|(_, v)| v.abs())
         .chain(view.frame.state.u.iter().map(|u| u.abs()));
-    if moved.fold(0.0, f64::max) > SMALL * size {
+    if moved.fold(0.0, f64::max) > UNMOVED * size {
         return None;
     }
     let mut holds = Holds {
@@ -254,7 +255,7 @@ fn holds(view: &View, t: f64) -> Option<Holds> {
     let interfaces = view.contact.interfaces.iter();
     for interface in interfaces.filter(|i| i.schedule.active(t) && !i.laws.tied) {
         let gap = spots(view, interface, t, &mut holds)?;
-        if gap > SMALL * size {
+        if gap > UNMOVED * size {
             return None;
         }
         holds.close |= gap <= 1e-9 * size;
@@ -303,7 +304,7 @@ fn spots(view: &View, interface: &InterfaceDefinition, t: f64, holds: &mut Holds
         let Some(nearest) = opposite.nearest(point.position(&interface.reference)) else {
             continue;
         };
-        if dot(nearest.normal, point.normal) >= FACING {
+        if dot(nearest.normal, point.normal) >= FACING_COSINE {
             continue;
         }
         gap = gap.min(nearest.gap.abs());
@@ -337,14 +338,14 @@ fn spots(view: &View, interface: &InterfaceDefinition, t: f64, holds: &mut Holds
 
 /// The coefficient of friction that would balance loads along the motions, if there is one.
 fn least(holds: &Holds, loads: &[f64]) -> Option<f64> {
-    if holds.rest(loads, |_| UNLIMITED, EXACT).is_some() {
+    if holds.rest(loads, |_| UNLIMITED, EXACT_REST).is_some() {
         return None;
     }
     let (mut low, mut high) = (0.0, UNLIMITED);
     for _ in 0..2 * HALVINGS {
         // Halvings of its size first.
         let middle = f64::midpoint(low, f64::min(high, 2.0 * low + 0.1));
-        match holds.rest(loads, |_| middle, EXACT) {
+        match holds.rest(loads, |_| middle, EXACT_REST) {
             Some(_) => low = middle,
             None => high = middle,
         }

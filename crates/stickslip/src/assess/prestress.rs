@@ -6,9 +6,6 @@ use super::view::View;
 use crate::body::{prestress, recover};
 use crate::model::limits::{GateMode, Limits};
 
-/// Change of a frequency worth a word.
-const WORTH: f64 = 0.01;
-
 /// A mode as it was found.
 pub(crate) struct Shape<'a> {
     /// Cycles per unit of time.
@@ -64,7 +61,8 @@ pub(crate) fn judge_prestress(
             worst = Some((k, change));
         }
     }
-    let Some((k, change)) = worst.filter(|(_, change)| change.abs() > WORTH) else {
+    // A change of a frequency by a hundredth is worth a word.
+    let Some((k, change)) = worst.filter(|(_, change)| change.abs() > 0.01) else {
         return;
     };
     let found = modes[k].frequency;

@@ -20,6 +20,7 @@ use crate::model::definition::Model;
 use crate::model::ledger::EnergyQuality;
 use crate::model::limits::{GateMode, Limits};
 use crate::system::Tally;
+use crate::tolerance::NEGLIGIBLE;
 
 /// The outcome of the quality gate.
 #[derive(Debug, Clone, Default, Serialize, crate::keep::Keep)]
@@ -181,21 +182,10 @@ impl Gate {
     }
 }
 
-/// Residual of a quasi-static ledger over the energy in play above which a note says so.
-const OPEN: f64 = 1e-3;
-
-/// The same of what is not known of friction.
-const UNKNOWN: f64 = 1e-2;
-
-/// Energies below this part of what the model would store if it strained as far as it moves are rounding.
-const ROUNDED: f64 = 1e-13;
-
-/// Forces that move by less than this part of the size of the model do no work worth a balance.
-const STILL: f64 = 1e-6;
-
 /// The energy that forces of this size stand for where nothing moves `[J]`.
 pub(crate) fn still_energy(model: &Model, forces: f64) -> f64 {
-    STILL * model.size * forces
+    // Forces that move by less than this part of the size of the model do no work worth a balance.
+    NEGLIGIBLE * model.size * forces
 }
 
 /// Digits behind the point of a value and of its limit, where these tell them apart.
@@ -224,7 +214,8 @@ fn ratio(value: f64, scale: f64) -> f64 {
 /// The energy that may be nothing but rounding of the strains `[J]`.
 fn rounded_energy(view: &View) -> f64 {
     let moved = farthest(view);
-    ROUNDED * stiffness(view) * moved * moved
+    // Energies below this part of what the model would store if it strained as far as it moves are rounding.
+    1e-13 * stiffness(view) * moved * moved
 }
 
 /// The largest displacement or rotation of a dof.
@@ -378,13 +369,15 @@ pub(crate) fn judge_energy(
     let t = view.frame.state.t;
     let (open, scale) = (pair[0], pair[1].max(f64::MIN_POSITIVE));
     let unknown = ledger.uncertain;
-    if !moves && open > OPEN * scale {
+    // A note says so if a quasi-static ledger leaves more of the energy in play open.
+    if !moves && open > 1e-3 * scale {
         notes.push(format!(
             "the ledger of energies is open by {:.1} % of the energy in play: works and losses are known to no more than that. Smaller increments make what comes of the course within them less; what they leave says that forces act along other directions than gaps have, as at edges that press or with small rotations",
             100.0 * open / scale
         ));
     }
-    if !moves && unknown > UNKNOWN * scale {
+    // The same of what is not known of friction.
+    if !moves && unknown > 1e-2 * scale {
         notes.push(format!(
             "friction took {:.3e}, ± {unknown:.1e}: points began to slide within increments, at times that are not known. Smaller increments make it less",
             ledger.friction

@@ -11,12 +11,12 @@ use crate::model::limits::Limits;
 use crate::model::rigid::anchors;
 
 /// Angle in radians below which it is not judged: half its square is less than rounding leaves of most coordinates.
-const NOTHING: f64 = 1e-7;
+const NO_ROTATION: f64 = 1e-7;
 
 /// Judges what rotations of bodies, by body `[rad]`, leave out at interfaces; `turns` are zero of those that turn in frames.
 pub(super) fn judge_rotations(view: &View, turns: &[Vec3], limits: &Limits, gate: &mut Gate) {
     let t = view.frame.state.t;
-    let far = |turn: &Vec3| dot(*turn, *turn) > NOTHING * NOTHING;
+    let far = |turn: &Vec3| dot(*turn, *turn) > NO_ROTATION * NO_ROTATION;
     let turned: Vec<Option<Turned>> = match turns.iter().any(far) {
         true => (turns.iter().zip(anchors::anchors(view, t)))
             .map(|(by, anchors)| far(by).then_some(Turned { by: *by, anchors }))

@@ -1,9 +1,8 @@
 //! The smallest circle around points: the mean and the amplitude of a shear that turns.
 
-type Point = [f64; 2];
+use crate::tolerance::ROUNDING;
 
-/// Part of the size of a path that is rounding.
-const ROUNDING: f64 = 1e-12;
+type Point = [f64; 2];
 
 fn between(a: Point, b: Point) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])

@@ -1,7 +1,7 @@
 //! The worst of all planes through a point.
 //!
 //! Planes are tried about six degrees apart, on the half sphere in space and in half a turn in the plane (planes that hold the direction across it). From those that are nearly as bad as the worst of them, and not neighbours, worse ones are looked
-//! for nearby, by steps that are halved until they are below [`FINEST`]. A value that is smooth over the planes is off by the square of that, beside its range over all of them: 1e-7. A criterion with a
+//! for nearby, by steps that are halved until they are below [`LAST_ANGLE`]. A value that is smooth over the planes is off by the square of that, beside its range over all of them: 1e-7. A criterion with a
 //! narrower peak than six degrees could be missed; stresses turn by the double of an angle, so that those here have none.
 
 use std::f64::consts::PI;
@@ -9,16 +9,14 @@ use std::f64::consts::PI;
 use super::criterion::{Criterion, OnPlane};
 use crate::math::{Vec3, add_scaled, cross, dot, normalize};
 
-/// Distance of the planes that are tried at first.
-const COARSE: f64 = PI / 30.0;
+/// Distance of the planes that are tried at first. It is six degrees, as said above.
+const FIRST_ANGLE: f64 = PI / 30.0;
 
 /// Steps at the end: angle by which the worst plane may be off `[rad]`, a fortieth of a degree or so.
-pub const FINEST: f64 = PI / 9000.0;
+pub const LAST_ANGLE: f64 = PI / 9000.0;
 
-/// Part of the range of values by which a plane may be better than the worst and still be looked around, how many are, and how far from each other `[rad]`.
-const NEARLY: f64 = 0.05;
+/// How many planes are looked around at most.
 const STARTS: usize = 6;
-const APART: f64 = 2.5 * COARSE;
 
 /// Which planes there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,18 +90,18 @@ impl Directions {
     fn coarse(self) -> Vec<Vec3> {
         match self {
             Directions::Plane => {
-                let count = (PI / COARSE).round() as usize;
+                let count = (PI / FIRST_ANGLE).round() as usize;
                 let angles = (0..count).map(|i| PI * i as f64 / count as f64);
                 angles.map(|a| [a.cos(), a.sin(), 0.0]).collect()
             }
             Directions::Space => {
                 let mut all = vec![[0.0, 0.0, 1.0]];
-                let rings = (0.5 * PI / COARSE).round() as usize;
+                let rings = (0.5 * PI / FIRST_ANGLE).round() as usize;
                 for ring in 1..=rings {
                     let polar = 0.5 * PI * ring as f64 / rings as f64;
                     // The equator is its own other half.
                     let round = if ring == rings { PI } else { 2.0 * PI };
-                    let count = (round * polar.sin() / COARSE).ceil() as usize;
+                    let count = (round * polar.sin() / FIRST_ANGLE).ceil() as usize;
                     let angles = (0..count).map(|i| round * i as f64 / count as f64);
                     let (s, c) = polar.sin_cos();
                     all.extend(angles.map(|a| [s * a.cos(), s * a.sin(), c]));
@@ -130,8 +128,8 @@ impl Directions {
 /// Looks around for a worse plane.
 fn climb(directions: Directions, value: &mut dyn FnMut(Vec3) -> f64, start: Worst) -> Worst {
     let mut best = start;
-    let mut step = 0.5 * COARSE;
-    while step >= FINEST {
+    let mut step = 0.5 * FIRST_ANGLE;
+    while step >= LAST_ANGLE {
         let mut next = best;
         for way in directions.ways(best.normal) {
             let turned = add_scaled(best.normal, step.tan(), way);
@@ -176,9 +174,10 @@ pub fn worst(
     let mut starts: Vec<Worst> = Vec::new();
     for &one in all
         .iter()
-        .take_while(|w| w.value >= top - NEARLY * (top - low))
+        // A plane is still looked around if it is better than the worst by no more than a twentieth of the range of values.
+        .take_while(|w| w.value >= top - 0.05 * (top - low))
     {
-        let near = |s: &Worst| dot(s.normal, one.normal).abs() > APART.cos();
+        let near = |s: &Worst| dot(s.normal, one.normal).abs() > (2.5 * FIRST_ANGLE).cos();
         if starts.len() < STARTS && !starts.iter().any(near) {
             starts.push(one);
         }

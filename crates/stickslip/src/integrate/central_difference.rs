@@ -21,7 +21,7 @@ use crate::system::{Cause, Constraints, Force, IncrementalRotation, Stage, State
 use crate::time::Trial;
 
 /// Dofs that one task updates; fixed, so that sums do not depend on the number of threads.
-const CHUNK: usize = 4096;
+const DOFS_PER_TASK: usize = 4096;
 
 /// Sums over one chunk.
 #[derive(Clone, Copy, Default)]
@@ -166,11 +166,11 @@ fn predict(model: &Model, frame: &Frame, constraints: &Constraints, trial: Trial
         v: vec![0.0; n],
         a: vec![0.0; n],
     };
-    at.u.par_chunks_mut(CHUNK)
-        .zip(at.v.par_chunks_mut(CHUNK))
+    at.u.par_chunks_mut(DOFS_PER_TASK)
+        .zip(at.v.par_chunks_mut(DOFS_PER_TASK))
         .enumerate()
         .for_each(|(c, (u, v))| {
-            let first = c * CHUNK;
+            let first = c * DOFS_PER_TASK;
             for (k, (u, v)) in u.iter_mut().zip(v).enumerate() {
                 let i = first + k;
                 if constraints.fixed[i] {
@@ -340,12 +340,12 @@ fn accelerate(explicit: &Explicit, end: &End, at: &mut State, forces: &mut [f64]
         ..
     } = explicit;
     let sums: Vec<Sums> = v
-        .par_chunks_mut(CHUNK)
-        .zip(a.par_chunks_mut(CHUNK))
-        .zip(forces.par_chunks_mut(CHUNK))
+        .par_chunks_mut(DOFS_PER_TASK)
+        .zip(a.par_chunks_mut(DOFS_PER_TASK))
+        .zip(forces.par_chunks_mut(DOFS_PER_TASK))
         .enumerate()
         .map(|(c, ((v, a), r))| {
-            let first = c * CHUNK;
+            let first = c * DOFS_PER_TASK;
             let mut sums = Sums {
                 finite: true,
                 ..Sums::default()

@@ -20,15 +20,13 @@ use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::solve::spin::Spin;
 use crate::system::{Assembler, Cause, Links, State, StepFailure};
+use crate::tolerance::SAME;
 
-/// What conjugate gradients leave of a right-hand side.
-const EXACT: f64 = 1e-13;
-
-/// Part of the size of its terms that a sum may be off where rows contradict each other by rounding alone.
-const AGREED: f64 = 1e-9;
+/// What conjugate gradients leave of a right-hand side. Double precision gives no more.
+const GRADIENTS_RESIDUAL: f64 = 1e-13;
 
 /// Roundings of its terms that a sum may be off.
-const ROUNDED: f64 = 4.0 * f64::EPSILON;
+const SUM_ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// Rows of all that is held.
 #[derive(Debug, Clone, Default, crate::keep::Keep)]
@@ -143,7 +141,8 @@ impl Rows {
         }
         let whole = weighed(size, size) + start;
         let given = weighed(b, b) + start;
-        let least = (EXACT * EXACT * given).max(ROUNDED * ROUNDED * whole);
+        let least = (GRADIENTS_RESIDUAL * GRADIENTS_RESIDUAL * given)
+            .max(SUM_ROUNDING * SUM_ROUNDING * whole);
         let precede = |r: &[f64]| -> Vec<f64> {
             let of = r.iter().zip(&give);
             of.map(|(r, g)| if *g > 0.0 { r / g } else { 0.0 })
@@ -172,7 +171,8 @@ impl Rows {
                 *p = z + turn * *p;
             }
         }
-        match rest <= AGREED * AGREED * whole {
+        // Rows contradict each other by rounding alone.
+        match rest <= SAME * SAME * whole {
             true => Ok(()),
             false => Err(contradiction()),
         }

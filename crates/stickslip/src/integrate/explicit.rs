@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use super::exact::{Exact, Mobility};
 use super::integrator::Integrator;
-use super::onset::{AFTER, initial_contact, look_at_contact};
+use super::onset::{JUST_AFTER, initial_contact, look_at_contact};
 use crate::body::couplings::explicit;
 use crate::body::internal::{InternalForce, largest_eigenvalue};
 use crate::contact::interface::{Conditions, History, Interface, use_springs};
@@ -307,7 +307,7 @@ impl Explicit {
         energy.kinetic = explicit.kinetic_energy(&frame.state.v);
         energy.initial += energy.kinetic - before;
         let step = &model.steps[frame.step];
-        let soon = step.start + AFTER * (step.end - step.start);
+        let soon = step.start + JUST_AFTER * (step.end - step.start);
         let still = model.actions.supports.iter().all(|s| {
             !s.schedule.active(soon) || s.entries.iter().all(|e| e.hold || e.value == 0.0)
         });
@@ -410,7 +410,7 @@ impl Explicit {
         constraints: &Constraints,
     ) -> Result<(), Error> {
         let step = &model.steps[frame.step];
-        let soon = step.start + AFTER * (step.end - step.start);
+        let soon = step.start + JUST_AFTER * (step.end - step.start);
         let gathered = Exact::gather(model, frame, contact, soon, &Exact::default());
         if gathered.is_empty() {
             return Ok(());
@@ -458,7 +458,7 @@ impl Explicit {
             (squared, look::highest_rate(i, &self.inverse, links))
         };
         let (squared, rate) = all.map(of).fold((0.0, 0.0), |s, i| (s.0 + i.0, s.1 + i.1));
-        let t = frame.state.t + AFTER * (step.end - step.start);
+        let t = frame.state.t + JUST_AFTER * (step.end - step.start);
         let couplings = explicit::highest_frequency(&contact.couplings, t, &self.inverse, links);
         let dashpots = explicit::highest_rate(&contact.couplings, t, &self.inverse, links);
         ContactFrequency {

@@ -26,15 +26,10 @@ use crate::model::definition::{ContactAt, Dynamic, Model};
 use crate::model::frame::Frame;
 use crate::solve::inertia::Inertia;
 use crate::system::{Stage, StepFailure};
+use crate::tolerance::ROUNDING;
 
-/// What is left of the velocity at pressed points, relative to what there was.
-const STOPPED: f64 = 1e-12;
-
-/// The same relative to the fastest dof, which is rounding.
-const ROUNDED: f64 = 1e-13;
-
-/// How much larger than its least what is left may become on the way, in squares.
-const LOST: f64 = 1e6;
+/// What is left of the velocity at pressed points, relative to the fastest dof, that is rounding. Tuned.
+const NO_VELOCITY: f64 = 1e-13;
 
 /// Whether contact is an impulse over an increment: of masses alone, with what does not give way and does not move.
 pub(super) fn is_impulse(
@@ -109,11 +104,13 @@ pub(super) fn stop(
     let (mut direction, mut square) = (rest.clone(), start);
     let before = inertia.kinetic_energy(v);
     let fastest = v.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let rounding = ROUNDED * ROUNDED * fastest * fastest * pressed.len() as f64;
-    let enough = rounding.max(STOPPED * STOPPED * start);
+    let rounding = NO_VELOCITY * NO_VELOCITY * fastest * fastest * pressed.len() as f64;
+    // What is left of the velocity at pressed points, relative to what there was.
+    let enough = rounding.max(ROUNDING * ROUNDING * start);
     let mut best = (square, v.clone());
     for _ in 0..4 * pressed.len() {
-        if square <= enough || square > LOST * best.0 {
+        // What is left may become so much larger than its least on the way, in squares.
+        if square <= enough || square > 1e6 * best.0 {
             break;
         }
         let change = moves(&direction)?;

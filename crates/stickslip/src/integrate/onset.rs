@@ -23,18 +23,15 @@ use crate::system::{Deformed, IncrementalRotation, Links, Stage, State, StepFail
 use crate::time::Trial;
 use crate::time::scheme::Alphas;
 
-/// Fraction of the duration of a step after its start at which loads that begin with the step are read.
-pub(crate) const AFTER: f64 = 1e-9;
+/// Fraction of the duration of a step after its start at which loads that begin with the step are read. It is more than rounding of times.
+pub(crate) const JUST_AFTER: f64 = 1e-9;
 
 /// Lengths of the trial increments that find the forces of contact at the start, in first increments.
 const TRIALS: [f64; 2] = [0.1, 0.5];
 
-/// Length of the trial increment over which points without mass go where overlap presses them, in first increments: none to speak of.
-const AT_ONCE: f64 = 1e-3;
-
 /// Part of themselves by which these forces may differ between the two: those of an impact, which take the same momentum out of bodies in any
 /// time, differ by four fifths.
-const SUDDEN: f64 = 0.5;
+const SUDDEN_CHANGE: f64 = 0.5;
 
 /// Begins an implicit step: masses, initial velocities, candidates, and the forces and accelerations at the start.
 pub fn begin(
@@ -62,7 +59,7 @@ fn start_forces(
 ) -> Result<(), Error> {
     let step = &model.steps[frame.step];
     let (t, dt) = (
-        step.start + AFTER * (step.end - step.start),
+        step.start + JUST_AFTER * (step.end - step.start),
         step.increments.initial,
     );
     frame.load = frame.external(model, t);
@@ -104,7 +101,8 @@ fn equilibrate_massless(
     }
     let trial = Trial {
         from: frame.state.t,
-        to: frame.state.t + AT_ONCE * dt,
+        // Length of the trial increment, in first increments: none to speak of.
+        to: frame.state.t + 1e-3 * dt,
     };
     let damping = solver.inertia.as_mut()?.damping.take();
     let tried = euler(implicit).attempt(model, frame, contact, solver, trial);
@@ -163,7 +161,7 @@ fn tried_contact(
 ) -> Option<Vec<f64>> {
     let t = frame.state.t;
     let inertia = in_motion(&solver.inertia);
-    if !forces_are_sought(model, contact, inertia, t + AFTER * dt) {
+    if !forces_are_sought(model, contact, inertia, t + JUST_AFTER * dt) {
         return None;
     }
     let mut euler = euler(implicit);
@@ -190,7 +188,7 @@ fn tried_contact(
         return None;
     };
     let change = difference(&short, &long);
-    if dot(&change, &change) > SUDDEN * SUDDEN * dot(&short, &short) {
+    if dot(&change, &change) > SUDDEN_CHANGE * SUDDEN_CHANGE * dot(&short, &short) {
         return None;
     }
     let contacts = Arc::make_mut(&mut frame.contacts);
@@ -198,7 +196,7 @@ fn tried_contact(
         adopt_tractions(history, tried);
     }
     let at = State {
-        t: t + AFTER * dt,
+        t: t + JUST_AFTER * dt,
         ..frame.state.clone()
     };
     let add = |out: &mut [f64]| contact.couplings.add_initial(&contacts.couplings, &at, out);

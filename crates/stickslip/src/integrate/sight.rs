@@ -21,13 +21,7 @@ use crate::time::scheme::Alphas;
 
 /// Most times that an increment is solved again with forces that have been found where it ended. Each leaves the part of the imbalance by which bodies are
 /// strained, and by which they have turned otherwise than expected.
-const MOST_PASSES: usize = 40;
-
-/// Roundings of places by which the forces on points may be off.
-const ROUNDINGS: f64 = 4.0;
-
-/// How much more than Newton's method left may be out of balance where that cannot do better.
-const LEFT: f64 = 2.0;
+const SOLUTION_PASSES: usize = 40;
 
 /// What acts at the end of an increment.
 pub(super) struct Acting<'a> {
@@ -254,10 +248,12 @@ impl<'a> InertialFrame<'a> {
             .iter()
             .zip(diagonal.chunks(model.dofs.dim));
         let worst = places.map(|(x, k)| (norm(*x) * k[0]).powi(2)).sum::<f64>();
-        let rounding = ROUNDINGS * f64::EPSILON * worst.sqrt();
+        // The forces on points may be off by four roundings of places.
+        let rounding = 4.0 * f64::EPSILON * worst.sqrt();
         let scale = end.size.max(size(&converged.contact));
         let enough = (model.solution.settings.tolerance * scale)
-            .max(LEFT * size(&converged.forces))
+            // Twice as much as Newton's method left may be out of balance where that cannot do better.
+            .max(2.0 * size(&converged.forces))
             .max(rounding);
         if off <= enough {
             return Ok(Some(Converged {
@@ -265,7 +261,7 @@ impl<'a> InertialFrame<'a> {
                 ..converged.clone()
             }));
         }
-        if off.is_nan() || passes >= MOST_PASSES {
+        if off.is_nan() || passes >= SOLUTION_PASSES {
             return Err(StepFailure::new(
                 Cause::NotConverged,
                 format!(

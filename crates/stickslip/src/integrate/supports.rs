@@ -6,12 +6,10 @@
 use crate::math::{Mat3, Vec3, add, cross, dot, mat_vec, outer, scale, sub};
 use crate::model::definition::{Body, Model};
 use crate::system::{Constraints, frame_of};
+use crate::tolerance::ROUNDING;
 
 /// By how much better a rigid turn has to meet what supports prescribe than the guess as it is, or a shift without a turn: by half, in distances.
-const BETTER: f64 = 0.25;
-
-/// Turn, in squares of the arms, below which there is none.
-const NOTHING: f64 = 1e-12;
+const BETTER_THAN_SHIFT: f64 = 0.25;
 
 /// Turns bodies whose cells have frames with their supports, from the displacements `before`, where that meets the constraints better than the `guess` does.
 pub(super) fn turn_with_supports(
@@ -87,8 +85,9 @@ impl Turn {
             turned += square(sub(mat_vec(&by, arm), arm));
             arms += square(arm);
         }
-        let better = rigid < BETTER * shifted && rigid < BETTER * expected;
-        (better && turned > NOTHING * arms).then_some(turn)
+        let better = rigid < BETTER_THAN_SHIFT * shifted && rigid < BETTER_THAN_SHIFT * expected;
+        // A smaller turn, in squares of the arms, is none.
+        (better && turned > ROUNDING * arms).then_some(turn)
     }
 }
 

@@ -11,14 +11,8 @@ use crate::linear::BlockCsr;
 /// A row over dofs.
 pub(crate) type Sparse = Vec<(usize, f64)>;
 
-/// Part of the largest factor of an equation that the displacement has to have for which it is solved: the sums grow by no more than its inverse.
-const PIVOT: f64 = 0.1;
-
-/// Part of its largest factor below which nothing is left of an equation when others have been put into it: it says nothing new.
-const NOTHING: f64 = 1e-10;
-
 /// Groups that are added to a matrix together.
-const TOGETHER: usize = 500;
+const GROUPS_TOGETHER: usize = 500;
 
 /// Displacements as sums of others, by dof.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -44,9 +38,12 @@ impl Bound {
         for equation in free {
             let size = largest(&equation);
             let mut left = bound.row(&equation);
-            left.retain(|(_, a)| a.abs() > NOTHING * size);
+            // Below this part of its largest factor nothing is left of an equation when others have been put into it: it says nothing new.
+            left.retain(|(_, a)| a.abs() > 1e-10 * size);
             let most = largest(&left);
-            let able = left.iter().filter(|(_, a)| a.abs() >= PIVOT * most);
+            // The displacement for which an equation is solved has at least a tenth of its largest factor: the sums grow by no more than
+            // the inverse of that.
+            let able = left.iter().filter(|(_, a)| a.abs() >= 0.1 * most);
             let rank = |dof: &usize| known.get(dof).copied().unwrap_or(0);
             let Some(&(pivot, factor)) = able.min_by(|(i, a), (j, b)| {
                 let first = rank(i).cmp(&rank(j));
@@ -119,7 +116,7 @@ impl Bound {
         };
         let points: BTreeSet<usize> = self.dofs().map(|dof| dof / dim).collect();
         let points: Vec<usize> = points.into_iter().collect();
-        for chunk in points.chunks(TOGETHER) {
+        for chunk in points.chunks(GROUPS_TOGETHER) {
             let groups = chunk.iter().map(|&p| self.group(p, matrices));
             let groups: Vec<_> = groups.collect();
             for (k, matrix) in out.iter_mut().enumerate() {

@@ -8,10 +8,10 @@ use crate::linear::{Complex, DenseLu, Krylov, arnoldi, eigenvalues, general, sum
 use crate::math::vector::dot_in_fours as dot;
 
 /// Companion forms above this size are looked at by the method of Arnoldi.
-const LARGE: usize = 240;
+const LARGE_COMPANION: usize = 240;
 
-/// Estimate of the residual at which that method has found a mode.
-const FOUND: f64 = 1e-12;
+/// Estimate of the residual at which that method has found a mode. Tuned.
+const COMPANION_RESIDUAL: f64 = 1e-12;
 
 /// How many modes, up to which frequency.
 pub(crate) type Asked = (usize, f64);
@@ -53,14 +53,17 @@ fn largest(reduced: &Reduced, (count, to): Asked) -> Vec<(Complex, Vec<Complex>)
     if n == 0 {
         return Vec::new();
     }
-    if n <= LARGE {
+    if n <= LARGE_COMPANION {
         let (values, vectors) = general(n, &dense(reduced)).unwrap_or_default();
         return values.into_iter().zip(vectors).collect();
     }
     let companion = companion(reduced);
     let far = |z: &Complex| 1.0 / size(z) > TAU * to + reduced.sigma;
     let enough = |values: &[(Complex, f64)]| -> bool {
-        let first = values.iter().take_while(|(_, r)| *r <= FOUND).count();
+        let first = values
+            .iter()
+            .take_while(|(_, r)| *r <= COMPANION_RESIDUAL)
+            .count();
         first >= count || values[..first].iter().any(|(z, _)| far(z))
     };
     let mut apply = |all: &[Vec<f64>]| companion.apply(all);
@@ -70,11 +73,13 @@ fn largest(reduced: &Reduced, (count, to): Asked) -> Vec<(Complex, Vec<Complex>)
         apply: &mut apply,
     };
     let found = arnoldi(&mut krylov, n, &enough).into_iter();
-    let found = found.filter(|f| f.residual <= 1e3 * FOUND).map(|found| {
-        let [re, im] = found.vector;
-        let vector = re.into_iter().zip(im).map(|(re, im)| [re, im]);
-        (found.value, vector.collect())
-    });
+    let found = found
+        .filter(|f| f.residual <= 1e3 * COMPANION_RESIDUAL)
+        .map(|found| {
+            let [re, im] = found.vector;
+            let vector = re.into_iter().zip(im).map(|(re, im)| [re, im]);
+            (found.value, vector.collect())
+        });
     found.collect()
 }
 
@@ -90,7 +95,7 @@ pub fn values(reduced: &Reduced, asked: Asked) -> Vec<Complex> {
     if n == 0 {
         return Vec::new();
     }
-    let all: Vec<(Complex, ())> = match n <= LARGE {
+    let all: Vec<(Complex, ())> = match n <= LARGE_COMPANION {
         true => {
             let values = eigenvalues(n, &dense(reduced)).unwrap_or_default();
             values.into_iter().map(|z| (z, ())).collect()

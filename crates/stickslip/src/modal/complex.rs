@@ -17,9 +17,6 @@ use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::model::modal::{ComplexPlan, MapOver, MapPlan};
 
-/// Residual of the equations of motion above which a note says so.
-const DOUBTFUL: f64 = 1e-4;
-
 /// The modes that a step asks for.
 pub(crate) fn modes(
     model: &Model,
@@ -57,7 +54,8 @@ pub(crate) fn modes(
         out.modes.push(mode);
     }
     let worst = out.modes.iter().fold(0.0, |w: f64, m| w.max(m.residual));
-    if worst > DOUBTFUL {
+    // Above this residual of the equations of motion a note says so.
+    if worst > 1e-4 {
         out.notes.push(format!(
             "the equations of motion are left open by {worst:.1e} in the worst mode: ask for fewer modes"
         ));

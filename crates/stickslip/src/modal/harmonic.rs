@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 
 use super::linear::{Linear, fault};
 use super::outcome::{ModalOutcome, Response, ResponseRow};
-use super::quadratic::UNSTABLE;
+use super::quadratic::UNSTABLE_GROWTH;
 use super::real::{frequency, lowest};
 use super::reduced::{Reduced, images};
 use super::shifted::Shifted;
@@ -21,20 +21,11 @@ use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::model::modal::HarmonicPlan;
 
-/// Residual in the equations of all dofs that is good enough.
-const GOOD: f64 = 1e-5;
-
 /// Rounds in which what is left open is added, at most.
-const ROUNDS: usize = 5;
-
-/// Modes up to so many times the highest frequency are in the space.
-const BEYOND: f64 = 1.5;
+const HARMONIC_ROUNDS: usize = 5;
 
 /// At so many frequencies it is seen whether the space is good enough, before it is used at all of them.
-const TRIED: usize = 12;
-
-/// Residual above which a note says so.
-const DOUBTFUL: f64 = 1e-3;
+const TRIED_FREQUENCIES: usize = 12;
 
 /// Amplitudes, real and imaginary part.
 type Pair = [Vec<f64>; 2];
@@ -60,7 +51,7 @@ pub(crate) fn response(
         dimension: reduced.basis.len(),
         ..Response::default()
     };
-    for frequencies in shaken.frequencies.chunks(TRIED) {
+    for frequencies in shaken.frequencies.chunks(TRIED_FREQUENCIES) {
         let found = shaken.answers(&reduced, frequencies, &mut solves);
         for (frequency, (mut shape, residual, _)) in frequencies.iter().zip(found) {
             if !residual.is_finite() {
@@ -136,7 +127,8 @@ impl Shaken<'_> {
     fn space(&mut self, plan: &HarmonicPlan, solves: &mut usize) -> Reduced {
         let shifted = self.shifted;
         let highest = plan.frequencies.highest();
-        let below = (BEYOND * TAU * highest).powi(2);
+        // Modes up to 1.5 times the highest frequency are in the space.
+        let below = (1.5 * TAU * highest).powi(2);
         let count = plan.count.min(shifted.linear.free());
         let modes = lowest(shifted, count, below);
         *solves += modes.solves + 2;
@@ -148,13 +140,14 @@ impl Shaken<'_> {
         block.extend(reduced.grow(shifted, &damped, still));
         let images = images(shifted, &block, solves);
         reduced.grow(shifted, &damped, images);
-        let every = self.frequencies.len().div_ceil(TRIED).max(1);
+        let every = self.frequencies.len().div_ceil(TRIED_FREQUENCIES).max(1);
         let tried: Vec<f64> = self.frequencies.iter().copied().step_by(every).collect();
-        for _ in 0..ROUNDS {
+        for _ in 0..HARMONIC_ROUNDS {
             let found = self.answers(&reduced, &tried, solves);
             let open = found
                 .into_iter()
-                .filter(|(_, residual, _)| *residual > GOOD);
+                // A smaller residual in the equations of all dofs is good enough.
+                .filter(|(_, residual, _)| *residual > 1e-5);
             let rests: Vec<Vec<f64>> = open.flat_map(|(.., rest)| rest).collect();
             if rests.is_empty() {
                 break;
@@ -285,7 +278,8 @@ fn notes(
 ) -> Vec<String> {
     let mut notes = Vec::new();
     let worst = answer.rows.iter().fold(0.0, |w: f64, r| w.max(r.residual));
-    if worst > DOUBTFUL {
+    // Above this residual a note says so.
+    if worst > 1e-3 {
         notes.push(format!(
             "the equations of motion are left open by {worst:.1e} at the worst frequency: give the step a larger `count` of modes"
         ));
@@ -295,7 +289,7 @@ fn notes(
         true => [0.0; 2],
         false => companion::fastest_of(reduced, (plan.count, f64::INFINITY)),
     };
-    if value > UNSTABLE * value.hypot(omega) {
+    if value > UNSTABLE_GROWTH * value.hypot(omega) {
         notes.push(format!(
             "sliding is unstable: a motion of the frequency {:.6e} grows by {value:.6e}, so that no motion settles at the answer to the forces",
             omega / TAU

@@ -16,12 +16,10 @@ use crate::solve::inertia::Inertia;
 use crate::solve::solver::{Solver, entries};
 use crate::system::{ContactBlock, Links, Stage};
 
-/// Part of a step after which what acts in it acts.
-const SOON: f64 = 1e-3;
-
 /// The time at which modes of a step are asked for `[s]`.
 fn soon(step: &Step) -> f64 {
-    step.start + SOON * (step.end - step.start)
+    // What acts in a step acts after a thousandth of it.
+    step.start + 1e-3 * (step.end - step.start)
 }
 
 /// A matrix of rank one, `left rightᵀ`.

@@ -13,7 +13,7 @@ use super::estimate::Estimate;
 use super::few::Few;
 use super::linear::{FrictionTerms, Linear};
 use super::outcome::{FrictionMap, MapRow};
-use super::quadratic::{Eigen, UNSTABLE, residuals};
+use super::quadratic::{Eigen, UNSTABLE_GROWTH, residuals};
 use super::real::lowest;
 use super::reduced::{Reduced, images};
 use super::shifted::Shifted;
@@ -21,35 +21,25 @@ use crate::linear::Complex;
 use crate::math::vector::norm;
 use crate::modal::companion;
 use crate::model::modal::{MapOver, MapPlan};
+use crate::tolerance::NEGLIGIBLE;
 
 /// Rounds in which what modes leave open is added, at most.
 const ROUNDS: usize = 40;
 
-/// Estimate of what modes leave open in the equations of all dofs that is good enough. Eigenvalues are better by what left vectors, which the space does not contain,
-/// have beside it.
-const GOOD: f64 = 1e-6;
-
-/// The residual above which a note says so.
-const DOUBTFUL: f64 = 1e-4;
-
-/// How far from a critical factor its slope is looked for, relative to the largest.
-const NEAR: f64 = 1e-6;
-
-/// Width to which a critical factor is known, relative to the largest.
-const WIDTH: f64 = 1e-13;
+/// Estimate of what modes leave open in the equations of all dofs that is good enough. Eigenvalues are better by what left vectors, which
+/// the space does not contain, have beside it. Tuned.
+const GOOD_ESTIMATE: f64 = 1e-6;
 
 /// So many critical factors are told in notes.
-const TOLD: usize = 4;
+const TOLD_FACTORS: usize = 4;
 
 /// Companion forms above this size are worth a smaller space.
 const MANY: usize = 160;
 
-/// What modes between those of which a smaller space is made may leave open in the larger one, and the part of them that counts as new beside others.
-const CLOSE: f64 = 1e-7;
-const NEW: f64 = 0.1 * CLOSE;
-
-/// So many states for each displacement of the larger space are few.
-const FEWER: f64 = 1.0;
+/// What modes between those of which a smaller space is made may leave open in the larger one. Tuned.
+const LEFT_OPEN: f64 = 1e-7;
+/// Part of a mode that counts as new beside others. Tuned.
+const NEW_PART: f64 = 0.1 * LEFT_OPEN;
 
 /// What changes over a map.
 pub(crate) struct Over<'a> {
@@ -136,7 +126,7 @@ pub(crate) fn space(
     for _ in 0..ROUNDS {
         estimate.take(&reduced);
         let worst = (0..tried.len()).max_by(|a, b| known[*a].total_cmp(&known[*b]));
-        let Some(worst) = worst.filter(|k| known[*k] > GOOD) else {
+        let Some(worst) = worst.filter(|k| known[*k] > GOOD_ESTIMATE) else {
             break;
         };
         over.set(tried[worst], &mut reduced);
@@ -146,7 +136,7 @@ pub(crate) fn space(
         let bad = modes
             .into_iter()
             .zip(open)
-            .filter(|(_, open)| open.is_nan() || *open > GOOD);
+            .filter(|(_, open)| open.is_nan() || *open > GOOD_ESTIMATE);
         let bad = lifted(&reduced.basis, bad.map(|(mode, _)| mode).collect());
         let (_, rests) = residuals(shifted, &bad, over.rub(), solves);
         if !rests.is_empty() && reduced.grow(shifted, &damped, rests).is_empty() {
@@ -177,22 +167,23 @@ impl Space {
         let mut few = Few::default();
         for factor in [from, middle, to] {
             over.set(factor, &mut whole);
-            few.add(&whole, &companion::eigen(&whole, asked), NEW);
+            few.add(&whole, &companion::eigen(&whole, asked), NEW_PART);
         }
         let mut untried = vec![[from, middle], [middle, to]];
         while let Some([from, to]) = untried.pop() {
             let known = few.len();
-            if known as f64 > FEWER * whole.basis.len() as f64 {
+            // As many states as the larger space has displacements are few.
+            if known > whole.basis.len() {
                 return Space { whole, few: None };
             }
             let middle = 0.5 * (from + to);
             over.set(middle, &mut whole);
             few.take(&whole);
             let open = companion::open(&whole, &few.eigen(&whole, asked));
-            if open.into_iter().all(|open| open <= CLOSE) {
+            if open.into_iter().all(|open| open <= LEFT_OPEN) {
                 continue;
             }
-            few.add(&whole, &companion::eigen(&whole, asked), NEW);
+            few.add(&whole, &companion::eigen(&whole, asked), NEW_PART);
             if few.len() > known {
                 untried.extend([[from, middle], [middle, to]]);
             }
@@ -270,7 +261,7 @@ pub(crate) fn rows(
     }
     map.residual = worst(over, &mut space, &map.rows, asked, solves);
     for k in 1..factors.len() {
-        let [before, now] = [k - 1, k].map(|k| grows(&rates[k], UNSTABLE));
+        let [before, now] = [k - 1, k].map(|k| grows(&rates[k], UNSTABLE_GROWTH));
         let ends = match (before, now) {
             (false, true) => [k - 1, k],
             // More friction is not expected to calm what has begun, and what a map is asked for is where it begins.
@@ -324,20 +315,22 @@ fn lost(
         space.set(over, factor);
         space.fastest(asked)
     };
-    while (unstable - stable).abs() > WIDTH * largest {
+    // A critical factor is known to this width, relative to the largest.
+    while (unstable - stable).abs() > 1e-13 * largest {
         let middle = 0.5 * (stable + unstable);
         if middle == stable || middle == unstable {
             break;
         }
         let there = at(middle);
-        match grows(&there, UNSTABLE) {
+        match grows(&there, UNSTABLE_GROWTH) {
             true => (unstable, value) = (middle, there),
             false => stable = middle,
         }
     }
     // Without damping growth leaves zero with the root, and what is found is as near as rounding lets one see; with damping it goes through zero in
     // proportion to friction, and the straight line says where.
-    let way = NEAR * largest * (unstable - stable).signum();
+    // How far from a critical factor its slope is looked for, relative to the largest.
+    let way = NEGLIGIBLE * largest * (unstable - stable).signum();
     let there = at(unstable + way);
     let slope = (there[0] - value[0]) / way.abs();
     let back = if slope > 0.0 { value[0] / slope } else { 0.0 };
@@ -351,7 +344,7 @@ fn first_lost(over: &mut Over, space: &mut Space, factors: &[f64], asked: Asked)
     for &factor in factors {
         space.set(over, factor);
         let value = space.fastest(asked);
-        match (before, grows(&value, UNSTABLE)) {
+        match (before, grows(&value, UNSTABLE_GROWTH)) {
             (Some(stable), true) => {
                 let ends = [stable, factor];
                 return Some(lost(over, space, ends, value, norm(factors), asked)[0]);
@@ -366,7 +359,7 @@ fn first_lost(over: &mut Over, space: &mut Space, factors: &[f64], asked: Asked)
 /// What there is to be said of a map.
 pub(crate) fn notes(map: &FrictionMap) -> Vec<String> {
     let mut notes = Vec::new();
-    for [factor, frequency] in map.critical.iter().take(TOLD) {
+    for [factor, frequency] in map.critical.iter().take(TOLD_FACTORS) {
         notes.push(match map.over == MapOver::Friction.name() {
             true => format!(
                 "sliding becomes unstable at {factor:.6} times the friction of the step (mu {:.6}), with the frequency {frequency:.6e}",
@@ -393,7 +386,8 @@ pub(crate) fn notes(map: &FrictionMap) -> Vec<String> {
             "damping makes it unstable earlier: without it the factor is {undamped:.6}. Where two modes couple, unequal damping of them does that"
         ));
     }
-    if map.residual > DOUBTFUL {
+    // Above this residual a note says so.
+    if map.residual > 1e-4 {
         notes.push(format!(
             "modes of the map leave the equations of all dofs open by {:.1e}: ask for a smaller range",
             map.residual
@@ -408,7 +402,7 @@ fn side(map: &FrictionMap, factor: f64) -> &'static str {
     let unstable = above.is_some_and(|row| {
         row.modes
             .iter()
-            .any(|m| grows(&[m[1], TAU * m[0]], UNSTABLE))
+            .any(|m| grows(&[m[1], TAU * m[0]], UNSTABLE_GROWTH))
     });
     if unstable { "above" } else { "below" }
 }

@@ -8,11 +8,11 @@ use super::shifted::{Root, Shifted};
 use crate::linear::{Complex, Krylov, arnoldi};
 use crate::modal::shifted;
 
-/// Estimate of the residual at which a mode counts as found.
-const TOLERANCE: f64 = 1e-11;
+/// Estimate of the residual at which a mode counts as found. Tuned.
+const MODE_RESIDUAL: f64 = 1e-11;
 
-/// Growth relative to the size of the eigenvalue from which a mode counts as unstable.
-pub(crate) const UNSTABLE: f64 = 1e-8;
+/// Growth relative to the size of the eigenvalue from which a mode counts as unstable. Tuned.
+pub(crate) const UNSTABLE_GROWTH: f64 = 1e-8;
 
 /// An eigenvalue with its vector.
 #[derive(Debug, Clone, PartialEq)]
@@ -121,7 +121,10 @@ pub(crate) fn solve(
     };
     let far = |value: &Complex| 1.0 / value[0].hypot(value[1]) > TAU * to + shifted.sigma;
     let good = |values: &[(Complex, f64)]| -> bool {
-        let first = values.iter().take_while(|(_, r)| *r <= TOLERANCE).count();
+        let first = values
+            .iter()
+            .take_while(|(_, r)| *r <= MODE_RESIDUAL)
+            .count();
         first >= count || values[..first].iter().any(|(v, _)| far(v))
     };
     let ritz = arnoldi(&mut krylov, 20 * count + 400, &good);
@@ -129,7 +132,9 @@ pub(crate) fn solve(
     *solves += applied * if root.pairs.is_empty() { 1 } else { 2 };
     let size = |v: &Complex| v[0].hypot(v[1]);
     let largest = ritz.iter().fold(0.0, |m: f64, r| m.max(size(&r.value)));
-    let kept = ritz.into_iter().filter(|r| r.residual <= 1e3 * TOLERANCE);
+    let kept = ritz
+        .into_iter()
+        .filter(|r| r.residual <= 1e3 * MODE_RESIDUAL);
     // What has no mass has infinite eigenvalues.
     let finite = kept
         .filter(|r| size(&r.value) > 1e-12 * largest)

@@ -12,12 +12,7 @@ use crate::math::vector::dot;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::model::modal::RealPlan;
-
-/// Residual of the inverse problem at which a mode counts as found.
-const TOLERANCE: f64 = 1e-10;
-
-/// Squared frequencies below this part of the shift are those of motions without stiffness.
-const NOTHING: f64 = 1e-6;
+use crate::tolerance::NEGLIGIBLE;
 
 /// The modes that a step asks for.
 pub(crate) fn modes(
@@ -69,7 +64,8 @@ pub(crate) fn modes(
         out.modes.push(Mode {
             frequency,
             // Something buckles: it grows without a vibration.
-            growth: match *value < -NOTHING * shifted.shift() {
+            // Squared frequencies below this part of the shift are those of motions without stiffness.
+            growth: match *value < -NEGLIGIBLE * shifted.shift() {
                 true => (-value).sqrt(),
                 false => 0.0,
             },
@@ -98,7 +94,8 @@ pub(crate) fn lowest(shifted: &Shifted, count: usize, below: f64) -> RealModes {
     let wanted = Wanted {
         count,
         below,
-        tolerance: TOLERANCE,
+        // At this residual of the inverse problem a mode counts as found.
+        tolerance: 1e-10,
     };
     lanczos(&pencil, wanted)
 }
@@ -119,7 +116,7 @@ fn above(shifted: &Shifted, from: f64, count: usize) -> RealModes {
 
 /// Cycles per unit of time of `ω²`; zero of what has no stiffness.
 pub(super) fn frequency(value: f64, shift: f64) -> f64 {
-    match value > NOTHING * shift {
+    match value > NEGLIGIBLE * shift {
         true => value.sqrt() / TAU,
         false => 0.0,
     }

@@ -5,9 +5,7 @@ use super::linear::{Linear, Pair, add_pairs, product};
 use super::shifted::Shifted;
 use crate::linear::{products, sums};
 use crate::math::vector::dot_in_fours as dot;
-
-/// Part of a vector that has to be left after orthogonalisation.
-const DEPENDENT: f64 = 1e-9;
+use crate::tolerance::SAME;
 
 /// An image of a vector.
 type Image<'a> = &'a dyn Fn(&[f64]) -> Vec<f64>;
@@ -121,7 +119,8 @@ impl Reduced {
             }
             let mut weighed = shifted.times(&x);
             let left = dot(&x, &weighed).max(0.0);
-            let new = left > DEPENDENT * DEPENDENT * (known + left);
+            // Part of a vector that has to be left after orthogonalisation.
+            let new = left > SAME * SAME * (known + left);
             if new && self.basis.len() < shifted.linear.free() {
                 let size = left.sqrt();
                 x.iter_mut().for_each(|v| *v /= size);

@@ -14,9 +14,7 @@ use crate::linear::{BlockCsr, Complex, pencil};
 use crate::math::vector::dot;
 use crate::modal::shifted;
 use crate::model::definition::Model;
-
-/// Distance of two eigenvalues that are one, relative to their size.
-const SAME: f64 = 1e-6;
+use crate::tolerance::NEGLIGIBLE;
 
 /// What stiffness, damping and mass change by, times a vector.
 type Change<'a> = Box<dyn Fn(&[f64]) -> [Vec<f64>; 3] + 'a>;
@@ -81,7 +79,8 @@ pub(crate) fn all(
 /// Whether two eigenvalues are one.
 fn same(a: &Eigen, b: &Eigen) -> bool {
     let [re, im] = [0, 1].map(|i| a.value[i] - b.value[i]);
-    re.hypot(im) <= SAME * b.value[0].hypot(b.value[1])
+    // Two eigenvalues that are nearer to each other are one.
+    re.hypot(im) <= NEGLIGIBLE * b.value[0].hypot(b.value[1])
 }
 
 /// Modes, by frequency, whose eigenvalues are equal.

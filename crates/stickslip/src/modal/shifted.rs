@@ -7,19 +7,13 @@ use crate::error::RunError;
 use crate::linear::{BlockCsr, DenseLu, Factor, LinearError, Symbolic, noise};
 use crate::math::vector::dot;
 use crate::model::frame::Frame;
+use crate::tolerance::ROUNDING;
 
 /// Most rows of the dense matrix of friction.
 const MOST_ROWS: usize = 8000;
 
 /// Columns that are solved for together.
-const COLUMNS: usize = 32;
-
-/// Shift where the stiffness alone is singular, relative to the largest squared frequency that the diagonals tell of.
-const SMALL: f64 = 1e-7;
-
-/// Lowest squared frequency, relative to the largest that the diagonals tell of, that rounding of the stiffness may leave of none: a factor of such a stiffness is one of
-/// rounding.
-const LOST: f64 = 1e-12;
+const SOLVED_TOGETHER: usize = 32;
 
 /// The factor of `A = K + σ C + σ² M`.
 pub(crate) struct Shifted<'a> {
@@ -54,7 +48,8 @@ impl<'a> Shifted<'a> {
                     });
                 }
                 Ok(_) | Err(LinearError::NotPositive { .. } | LinearError::Singular { .. }) => {
-                    let first = SMALL * highest(linear);
+                    // Shift where the stiffness alone is singular, relative to the largest squared frequency that the diagonals tell of.
+                    let first = 1e-7 * highest(linear);
                     shift = if shift == 0.0 { first } else { 30.0 * shift };
                 }
                 Err(e) => return Err(fault(frame, e.to_string())),
@@ -97,7 +92,7 @@ impl<'a> Shifted<'a> {
     /// `A⁻¹ b` of several.
     pub fn solved(&self, columns: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let mut out = Vec::new();
-        for chunk in columns.chunks(COLUMNS) {
+        for chunk in columns.chunks(SOLVED_TOGETHER) {
             let mut all = chunk.concat();
             self.factor.solve_columns(&mut all, chunk.len());
             out.extend(all.chunks_exact(self.linear.size()).map(<[f64]>::to_vec));
@@ -131,7 +126,8 @@ fn holds(linear: &Linear, factor: &Factor) -> bool {
         lowest = before / after;
         x.iter_mut().for_each(|x| *x /= after);
     }
-    lowest > LOST * highest(linear)
+    // Rounding of the stiffness may leave this much of a lowest squared frequency of none: a factor of such a stiffness is one of rounding.
+    lowest > ROUNDING * highest(linear)
 }
 
 fn matrix(linear: &Linear, sigma: f64, damped: bool) -> BlockCsr {
@@ -194,7 +190,7 @@ impl Root {
         }
         let n = linear.size();
         let mut w = vec![0.0; q * q];
-        for (block, chunk) in pairs.chunks(COLUMNS).enumerate() {
+        for (block, chunk) in pairs.chunks(SOLVED_TOGETHER).enumerate() {
             let mut columns = vec![0.0; n * chunk.len()];
             for (column, pair) in columns.chunks_exact_mut(n).zip(chunk) {
                 pair.left.iter().for_each(|&(dof, v)| column[dof] += v);
@@ -202,7 +198,7 @@ impl Root {
             shifted.factor.solve_columns(&mut columns, chunk.len());
             for (k, column) in columns.chunks_exact(n).enumerate() {
                 for (i, pair) in pairs.iter().enumerate() {
-                    w[i * q + block * COLUMNS + k] = product(&pair.right, column);
+                    w[i * q + block * SOLVED_TOGETHER + k] = product(&pair.right, column);
                 }
             }
         }

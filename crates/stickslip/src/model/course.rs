@@ -5,9 +5,9 @@ use crate::math::vector::norm;
 /// Increments that are remembered: what two have in common is a parabola.
 const REACH: usize = 2;
 
-/// Part of the way of an increment by which it may bend away from a straight line and still be expected to go on bending. Where points begin to slip or a load
-/// turns, the last two increments say nothing of the next, and a straight line is the safer guess.
-const BENT: f64 = 0.1;
+/// Part of the way of an increment by which it may bend away from a straight line and still be expected to go on bending. Where points
+/// begin to slip or a load turns, the last two increments say nothing of the next, and a straight line is the safer guess. Tuned.
+const LARGEST_BEND: f64 = 0.1;
 
 /// The last increments of a quasi-static step, as long as what drives them goes on as it did.
 #[derive(Debug, Clone, Default, crate::keep::Keep)]
@@ -46,7 +46,7 @@ impl Course {
             let bend: Vec<f64> = bend
                 .map(|((c, b), a)| factor * ((c - b) / last - (b - a) / before))
                 .collect();
-            if norm(&bend) <= BENT * norm(&ahead) {
+            if norm(&bend) <= LARGEST_BEND * norm(&ahead) {
                 ahead.iter_mut().zip(bend).for_each(|(a, b)| *a += b);
             }
         }

@@ -1,5 +1,6 @@
 //! Steps that are gone through again and again, where one cycle that is computed may stand for many.
 
+use crate::tolerance::SAME;
 use serde::{Deserialize, Serialize};
 
 /// The cycles of a step.
@@ -71,9 +72,6 @@ pub struct Block {
     pub stands_for: usize,
 }
 
-/// Part of a cycle that is rounding.
-const ON_TIME: f64 = 1e-9;
-
 impl Cycling {
     /// How jumps are chosen, if they are.
     pub fn chosen(&self) -> Option<ChosenJump> {
@@ -88,7 +86,7 @@ impl Cycling {
         let Jump::Fixed(jump) = self.jump else {
             return at_hand;
         };
-        let block = (since / self.period + ON_TIME).floor().max(0.0) as usize;
+        let block = (since / self.period + SAME).floor().max(0.0) as usize;
         let before = block.saturating_mul(jump).min(self.count);
         Block {
             before,
@@ -99,13 +97,13 @@ impl Cycling {
     /// Whether a computed cycle begins a time `since` the step did.
     pub fn begins(&self, since: f64) -> bool {
         let cycles = since / self.period;
-        (cycles - cycles.round()).abs() < ON_TIME * cycles.max(1.0)
+        (cycles - cycles.round()).abs() < SAME * cycles.max(1.0)
     }
 
     /// Whether a computed cycle ends with an increment between two times since the step began.
     pub fn ends(&self, [from, to]: [f64; 2]) -> bool {
-        let begun = (from / self.period + ON_TIME).floor();
-        to / self.period >= begun + 1.0 - ON_TIME
+        let begun = (from / self.period + SAME).floor();
+        to / self.period >= begun + 1.0 - SAME
     }
 
     /// Cycles that are over a time `since` the step began `[-]`.
@@ -113,7 +111,7 @@ impl Cycling {
         let Block { before, stands_for } = self.block(since, at_hand);
         let cycles = since / self.period;
         let part = match self.jump {
-            Jump::Fixed(_) => cycles - (cycles + ON_TIME).floor().max(0.0),
+            Jump::Fixed(_) => cycles - (cycles + SAME).floor().max(0.0),
             // The last of those that it stands for is computed.
             Jump::Chosen(_) => cycles + 1.0 - (before + stands_for) as f64,
         };

@@ -21,10 +21,6 @@ pub(crate) struct Flow {
     pub thermal: [f64; 2],
 }
 
-/// How often what is left of the balance may be fed in by the scheme: part of that is no loss, but comes back, as the energy of a central difference is
-/// that of a state half an increment away.
-const FED: f64 = 4.0;
-
 /// Energies `[J]` (per unit of thickness or over 2π as the model has it).
 #[derive(Debug, Clone, Copy, Default, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
@@ -170,7 +166,9 @@ impl EnergyLedger {
     pub(crate) fn open(&self) -> f64 {
         self.residual
             .abs()
-            .max(-(self.residual + self.numerical) / FED)
+            // A quarter of what the scheme may feed in is no loss, but comes back, as the energy of a central difference is that of a state
+            // half an increment away.
+            .max(-(self.residual + self.numerical) / 4.0)
     }
 
     /// Everything stored and dissipated, and what heat could store.

@@ -133,13 +133,11 @@ pub struct Limits {
     pub energy: Option<f64>,
 }
 
-/// Strain at which forces are wrong by a twentieth.
-const STRAIN: f64 = 0.05;
-
 impl Limits {
     /// The limit of [`strain`](Self::strain).
     pub fn strain_limit(&self) -> f64 {
-        self.strain.unwrap_or(STRAIN)
+        // At this strain forces are wrong by a twentieth.
+        self.strain.unwrap_or(0.05)
     }
 }
 

@@ -40,13 +40,13 @@ const WORDLESS: &[(&str, &str)] = &[(
 const NAME: &str = "NAME";
 
 /// How many tables below one another are looked through.
-const DEPTH: usize = 6;
+const TABLE_DEPTH: usize = 6;
 
 /// How many places a key may have to be spoken of.
 const PLACES: usize = 3;
 
 /// Longest value that is repeated.
-const LONGEST: usize = 40;
+const LONGEST_VALUE: usize = 40;
 
 /// What to write where a table, or a list of tables, is wanted at `path` and something else was found.
 pub(super) fn place(
@@ -263,7 +263,7 @@ impl<'s> Schema<'s> {
                 return self.outline(table, &keys);
             }
         }
-        if let Some(keys) = self.fit(table, name, found, DEPTH) {
+        if let Some(keys) = self.fit(table, name, found, TABLE_DEPTH) {
             return self.form(table, &keys, &text(found));
         }
         if let Some((keys, value)) = self.lifted(table, name, found) {
@@ -283,7 +283,7 @@ impl<'s> Schema<'s> {
         let mut list = toml::de::DeArray::new();
         list.push(Spanned::new(0..0, found.clone()));
         list.push(Spanned::new(0..0, found.clone()));
-        let keys = self.fit(table, name, &DeValue::Array(list), DEPTH)?;
+        let keys = self.fit(table, name, &DeValue::Array(list), TABLE_DEPTH)?;
         let last = keys.last().map_or("", String::as_str);
         // Weight points down.
         let sign = match last == "acceleration" && number(found)? > 0.0 {
@@ -388,7 +388,7 @@ impl<'s> Schema<'s> {
     /// Paths below a table to the keys of this name that lie least deep.
     fn named(&self, table: &Expected<'s>, name: &str) -> Vec<Vec<String>> {
         let mut level = vec![(Vec::new(), table.keys().collect::<Vec<_>>(), table.entry())];
-        for _ in 0..DEPTH {
+        for _ in 0..TABLE_DEPTH {
             let mut found = Vec::new();
             let mut next = Vec::new();
             for (path, keys, entry) in level {
@@ -543,7 +543,7 @@ impl<'s> Schema<'s> {
                 let inner = end.child(first).map(|s| Expected::of(self.root, s));
                 let inner = inner.filter(Expected::takes_table);
                 keys.push(first.to_string());
-                match inner.filter(|_| keys.len() < DEPTH) {
+                match inner.filter(|_| keys.len() < TABLE_DEPTH) {
                     Some(_) => self.outline(table, &keys),
                     None => self.form(table, &keys, "…"),
                 }
@@ -585,7 +585,7 @@ fn text(value: &Value) -> String {
         }
         DeValue::Table(_) => "{ … }".into(),
     };
-    match text.chars().count() > LONGEST {
+    match text.chars().count() > LONGEST_VALUE {
         true => "…".into(),
         false => text,
     }

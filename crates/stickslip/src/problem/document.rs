@@ -152,7 +152,7 @@ impl Document {
 }
 
 /// Lines with mistakes of syntax that are reported: where a bracket is not closed all lines behind it have one.
-const MOST_LINES: usize = 5;
+const MOST_MISTAKES: usize = 5;
 
 /// The first mistake of each line.
 fn syntax_findings(source: &str, errors: &[toml::de::Error]) -> Vec<Diagnostic> {
@@ -161,7 +161,7 @@ fn syntax_findings(source: &str, errors: &[toml::de::Error]) -> Vec<Diagnostic> 
     let mut out = Vec::new();
     for error in errors {
         let line = line(error);
-        if !lines.contains(&line) && lines.len() < MOST_LINES {
+        if !lines.contains(&line) && lines.len() < MOST_MISTAKES {
             lines.push(line);
             out.push(syntax(error));
         }

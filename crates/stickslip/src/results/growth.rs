@@ -6,18 +6,15 @@ use super::history::{AMPLITUDE, PHASE, REST};
 use crate::io::csv::Table;
 use crate::model::kick::Growth;
 
-/// Highest frequency of a spectrum, relative to that of the mode.
+/// Highest frequency of a spectrum, relative to that of the mode. Tuned.
 const HARMONICS: f64 = 10.0;
 
 /// Most rows of a spectrum.
-const MOST: usize = 2000;
+const MOST_ROWS: usize = 2000;
 
 /// Fewest and most cycles of each spectrum of a waterfall, and most of these.
 const CYCLES: [f64; 2] = [6.0, 40.0];
 const SPANS: usize = 60;
-
-/// Most rows of the history for a cycle that a waterfall looks at: several for the highest harmonic.
-const FINE: f64 = 64.0;
 
 /// Columns of the history over the rows of a step.
 struct Rows {
@@ -183,7 +180,7 @@ pub(super) fn spectrum(history: &Table, growth: &Growth) -> Option<Table> {
     if span <= 0.0 || growth.frequency <= 0.0 {
         return None;
     }
-    let frequencies = lines(growth.frequency, span, MOST);
+    let frequencies = lines(growth.frequency, span, MOST_ROWS);
     let found = amplitudes(&rows, [first, rows.time.len() - 1], &frequencies);
     Some(Table {
         names: vec!["frequency".into(), "amplitude".into()],
@@ -194,7 +191,8 @@ pub(super) fn spectrum(history: &Table, growth: &Growth) -> Option<Table> {
 /// The same over spans of some cycles, one after the other, by the middle of each. `None` where the step is shorter than two.
 pub(super) fn waterfall(history: &Table, growth: &Growth) -> Option<Table> {
     let frequency = growth.frequency;
-    let rows = Rows::of(history, growth)?.thinned(1.0 / (FINE * frequency));
+    // A waterfall looks at 64 rows of the history for a cycle at most: several for the highest harmonic.
+    let rows = Rows::of(history, growth)?.thinned(1.0 / (64.0 * frequency));
     let end = *rows.time.last()?;
     // Half of each is in the next.
     let fit = (2.0 * end * frequency / CYCLES[0]).floor();
@@ -203,7 +201,7 @@ pub(super) fn waterfall(history: &Table, growth: &Growth) -> Option<Table> {
     }
     let count = (fit as usize - 1).min(SPANS);
     let span = (2.0 * end / (count + 1) as f64).min(CYCLES[1] / frequency);
-    let frequencies = lines(frequency, span, MOST);
+    let frequencies = lines(frequency, span, MOST_ROWS);
     let mut columns = vec![Vec::new(); 3];
     for k in 0..count {
         let from = (end - span) * k as f64 / (count - 1) as f64;

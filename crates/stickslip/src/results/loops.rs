@@ -12,9 +12,7 @@ use crate::math::{Vec3, add_scaled, dot, norm, sub};
 use crate::model::cycling::Block;
 use crate::model::definition::{Body, Model};
 use crate::time::Trial;
-
-/// Part of the area in contact that slides at one time from which all of it does.
-const GROSS: f64 = 1.0 - 1e-9;
+use crate::tolerance::SAME;
 
 /// Two vectors between whose components all lie that have been seen.
 #[derive(Debug, Clone, Copy, Default, crate::keep::Keep)]
@@ -172,7 +170,8 @@ fn row(view: &View, loops: &mut [Loop], t: f64, block: Block) -> Row {
         let [force, displacement] = [at.shear.amplitude(), at.displacement.amplitude()];
         let total = 4.0 * force * displacement;
         let condition = match at.sliding {
-            s if s >= GROSS => 2.0,
+            // All of the area in contact slides.
+            s if s >= 1.0 - SAME => 2.0,
             s if s > 0.0 => 1.0,
             _ => 0.0,
         };

@@ -65,13 +65,13 @@ pub(crate) struct Come {
 }
 
 /// So much of the end of a file is looked at `[bytes]`: some rows, of which no two are alike, as each has its time.
-const TAIL: u64 = 1 << 16;
+const TAIL_BYTES: u64 = 1 << 16;
 
 /// A digest of the last that a file has before a length.
 pub(super) fn tail(mut file: &File, length: u64) -> std::io::Result<[u64; 2]> {
     let mut bytes = Vec::new();
-    file.seek(SeekFrom::Start(length.saturating_sub(TAIL)))?;
-    file.take(length.min(TAIL)).read_to_end(&mut bytes)?;
+    file.seek(SeekFrom::Start(length.saturating_sub(TAIL_BYTES)))?;
+    file.take(length.min(TAIL_BYTES)).read_to_end(&mut bytes)?;
     Ok(sealed::digest(&bytes))
 }
 

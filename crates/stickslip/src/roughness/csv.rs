@@ -2,9 +2,6 @@
 
 use super::map::HeightMap;
 
-/// Deviation of a distance between nodes from their mean, relative to it, up to which a grid is regular.
-const REGULAR: f64 = 0.02;
-
 /// Numbers of a line; a missing one is not a number.
 fn numbers(line: &str) -> Option<Vec<f64>> {
     let separator = [',', ';', '\t'].into_iter().find(|&c| line.contains(c));
@@ -89,7 +86,8 @@ fn listed(rows: &[(usize, Vec<f64>)], axes: usize) -> Result<HeightMap, String> 
         }
         if let Some(pair) = x
             .windows(2)
-            .find(|p| (p[1] - p[0] - step).abs() > REGULAR * step)
+            // A grid is regular if distances between nodes deviate from their mean by no more than this part of it.
+            .find(|p| (p[1] - p[0] - step).abs() > 0.02 * step)
         {
             return Err(format!(
                 "nodes are no regular grid: the distance from {:e} to {:e} is not {step:e} as in the mean",

@@ -1,3 +1,5 @@
+use crate::tolerance::NEGLIGIBLE;
+
 use super::model::Heights;
 
 /// Heights at the nodes of a grid, bilinear between them.
@@ -14,9 +16,6 @@ pub struct HeightMap {
     /// Whether it goes on beyond its edges with a copy of itself.
     pub repeat: bool,
 }
-
-/// Part of a spacing by which a place may lie beyond the last node: rounding.
-const ROUNDING: f64 = 1e-6;
 
 impl HeightMap {
     /// Gives nodes without a number the mean of those beside them, from the rim of each hole inward; how many there were.
@@ -94,7 +93,8 @@ impl HeightMap {
             false => x,
         };
         let last = if self.repeat { n } else { n - 1 } as f64;
-        if !(-ROUNDING..=last + ROUNDING).contains(&x) {
+        // A place may lie beyond the last node by rounding.
+        if !(-NEGLIGIBLE..=last + NEGLIGIBLE).contains(&x) {
             return None;
         }
         let first = (x.max(0.0) as usize).min(last as usize - 1);

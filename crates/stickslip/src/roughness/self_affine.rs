@@ -42,7 +42,7 @@ fn is_zero(seed: &u32) -> bool {
 }
 
 /// Most waves along an axis: what more would take is better read from a file.
-const MOST: f64 = 512.0;
+const MOST_WAVES: f64 = 512.0;
 
 /// One wave: how often it fits into the periods, and its amplitudes.
 #[derive(Debug, Clone, Copy)]
@@ -170,8 +170,9 @@ impl RoughnessModel for SelfAffine {
                 "is longer than the period or the longest wave: there is no wave between them";
             faults.push(("shortest", message.into()));
         }
-        if a.max(b) / self.shortest > MOST {
-            let message = format!("is so short that more than {MOST} waves fit into a period");
+        if a.max(b) / self.shortest > MOST_WAVES {
+            let message =
+                format!("is so short that more than {MOST_WAVES} waves fit into a period");
             faults.push(("shortest", message));
         }
         faults

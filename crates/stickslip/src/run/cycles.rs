@@ -22,21 +22,17 @@ use crate::contact::look;
 use crate::error::Error;
 use crate::model::cycling::{Block, ChosenJump};
 use crate::results::observer::{Event, Observer};
+use crate::tolerance::SAME;
 
-/// The error that is aimed at, over the one that is allowed.
+/// The error that is aimed at, over the one that is allowed. Tuned.
 const SAFETY: f64 = 0.8;
-/// How much longer a jump is at most than the one before, and how much shorter when it is tried again.
-const GROWTH: f64 = 3.0;
-const SHRINKAGE: f64 = 0.2;
-/// A block in which an increment fails is tried again with this part of its cycles.
-const AFTER_FAILURE: f64 = 0.25;
-/// Part of a cycle that is rounding.
-const ON_TIME: f64 = 1e-9;
+/// How much longer a jump is at most than the one before. Tuned.
+const JUMP_GROWTH: f64 = 3.0;
 
 /// Fewest cycles of a jump: as a whole and in two halves it costs three.
 const FEWEST: usize = 4;
-/// Cycles that a jump may always be tried with, however short the one before.
-const TRIED: f64 = 8.0;
+/// Cycles that a jump may always be tried with, however short the one before. Tuned.
+const ALWAYS_TRIED: f64 = 8.0;
 
 fn chosen(run: &Run) -> Option<(ChosenJump, f64, usize)> {
     let cycles = run.step().cycles?;
@@ -73,7 +69,7 @@ pub(super) fn begin_block(run: &mut Run, running: &mut Increments, start: Checkp
     let step = run.step();
     // Equal jumps to the next time of output.
     let times = run.model.reports.output.times.iter();
-    let due = times.map(|t| ((t - step.start) / period - ON_TIME).ceil().max(0.0) as usize);
+    let due = times.map(|t| ((t - step.start) / period - SAME).ceil().max(0.0) as usize);
     let target = due.filter(|&n| n > before).min().unwrap_or(count);
     let left = target.min(count) - before;
     let largest = chosen.largest.unwrap_or(count) as f64;
@@ -126,7 +122,7 @@ pub(super) fn end_block(
     };
     let Block { before, stands_for } = run.frame.block;
     let after = before + stands_for;
-    if (t - run.step().start) / period < after as f64 - ON_TIME {
+    if (t - run.step().start) / period < after as f64 - SAME {
         return Ok(());
     }
     flush(run, observers)?;
@@ -188,7 +184,7 @@ fn end_wearing_block(
             let change = (!jumps.rates.is_empty()).then(|| absolute(&worn, &jumps.rates));
             jumps.made.enter(&worn, change);
             jumps.rates = worn;
-            let reach = TRIED.max(GROWTH);
+            let reach = ALWAYS_TRIED.max(JUMP_GROWTH);
             jumps.wish = (jumps.made).reach(&places, &jumps.rates, SAFETY * chosen.error, reach);
             return keep_block(run, running, after, count, observers);
         }
@@ -228,7 +224,8 @@ fn end_wearing_block(
         // What comes before the jump is as it was; how rates change is known better now.
         let known = made.of_change(&jumps.made);
         let reach = known.reach(&places, &rates, SAFETY * chosen.error, 0.5 * cycles as f64);
-        let halved = halves[0] >= FEWEST && reach >= SHRINKAGE * cycles as f64;
+        // Only a jump that may still be a fifth as long is tried again by its half.
+        let halved = halves[0] >= FEWEST && reach >= 0.2 * cycles as f64;
         let trial = halved.then_some(Halved {
             cycles: halves[0],
             whole: Some(first),
@@ -239,7 +236,7 @@ fn end_wearing_block(
     }
     jumps.made = made;
     jumps.rates = rates;
-    let most = (GROWTH * cycles as f64).max(TRIED);
+    let most = (JUMP_GROWTH * cycles as f64).max(ALWAYS_TRIED);
     jumps.wish = (jumps.made).reach(&places, &jumps.rates, SAFETY * chosen.error, most);
     keep_block(run, running, after, count, observers)
 }
@@ -340,7 +337,8 @@ pub(super) fn try_fewer_cycles(run: &mut Run, running: &mut Increments) -> Resul
     if run.block.is_none() || n < 2 {
         return Ok(false);
     }
-    let wish = (n as f64 * AFTER_FAILURE).floor();
+    // A block in which an increment fails is tried again with a quarter of its cycles.
+    let wish = (n as f64 * 0.25).floor();
     take_block_back(run, running, wish).map(|()| true)
 }
 

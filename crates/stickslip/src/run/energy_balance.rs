@@ -13,24 +13,7 @@ use crate::model::limits::GateMode;
 use crate::solve::accepted::Accepted;
 use crate::system::{Cause, StepFailure};
 use crate::time::Trial;
-
-/// The part of the limit of the gate that may be used up at once, as impacts do; the rest is there for the time that is left.
-const AT_ONCE: f64 = 0.5;
-
-/// The part of what that leaves that one increment may use up: however many there are, it is kept.
-const SHARE: f64 = 0.5;
-
-/// By what twice the increment makes its error larger, that of all schemes here being of the third order.
-const ORDER: f64 = 8.0;
-
-/// Part of themselves by which lengths differ that are the same but for rounding of times.
-const ROUNDED: f64 = 1e-6;
-
-/// Increments over the time that the fastest mass on a spring of contact takes for a radian, up to which they resolve it.
-const RESOLVED: f64 = 1.0;
-
-/// The power of the increment with which its error has to fall for halving to help: errors of the first power add up to the same, however short increments are.
-const HELPS: f64 = 1.5;
+use crate::tolerance::NEGLIGIBLE;
 
 /// Halvings in a row that did not help, after which they make no progress; fewer may be because of where in an increment a point opens or closes.
 const USELESS: i32 = 4;
@@ -61,8 +44,9 @@ pub(super) fn check_energy_balance(
         }
         // Where the limit is passed already, or smaller increments make no progress, they are as long as they would be without it; and up to a length that was
         // found too long it is not known that one is.
-        let long = 2.0 * length >= running.too_long * (1.0 - ROUNDED);
-        accepted.hard |= long && may > 0.0 && !running.no_progress && opened > may / ORDER;
+        let long = 2.0 * length >= running.too_long * (1.0 - NEGLIGIBLE);
+        // Twice the increment makes the error eight times as large: that of all schemes here is of the third order.
+        accepted.hard |= long && may > 0.0 && !running.no_progress && opened > may / 8.0;
         if running.no_progress && !was_vain {
             running.stepper.bound(length * f64::powi(2.0, USELESS));
         }
@@ -86,7 +70,8 @@ fn resolves(run: &Run, trial: Trial, after: &ContactMemory) -> bool {
     let squared: f64 = interfaces
         .map(|(i, history)| look::pressed_frequency(i, history, &inverse, links))
         .sum();
-    squared.sqrt() * (trial.to - trial.from) <= RESOLVED
+    // Increments up to the time that the fastest mass on a spring of contact takes for a radian resolve it.
+    squared.sqrt() * (trial.to - trial.from) <= 1.0
 }
 
 /// What a push on a point of the mesh moves `[1/kg]`, zero where that has no inertia of its own.
@@ -146,7 +131,9 @@ fn time_in_motion(run: &Run, from: f64) -> f64 {
 
 /// By how much a balance that is open by so much may open over a `part` of the time that is left.
 fn allowance(limit: f64, open: f64, part: f64) -> f64 {
-    let at_once = SHARE * (AT_ONCE * limit - open);
+    // Half of the limit of the gate may be used up at once, as impacts do; the rest is there for the time that is left. One increment may
+    // use up half of what that leaves: however many there are, it is kept.
+    let at_once = 0.5 * (0.5 * limit - open);
     at_once.max(part * (limit - open))
 }
 
@@ -165,9 +152,11 @@ fn is_to_halve(
         running.no_progress = false;
         return false;
     }
-    let halved = (2.0 * length - running.too_long).abs() <= ROUNDED * running.too_long;
+    let halved = (2.0 * length - running.too_long).abs() <= NEGLIGIBLE * running.too_long;
     let useless = match running.opened {
-        Some((before, useless)) if halved && opened > before * f64::powf(0.5, HELPS) => useless + 1,
+        // The error has to fall with this power of the increment for halving to help: errors of the first power add up to the same, however
+        // short increments are.
+        Some((before, useless)) if halved && opened > before * f64::powf(0.5, 1.5) => useless + 1,
         _ => 0,
     };
     running.opened = resolved.then_some((opened, useless));

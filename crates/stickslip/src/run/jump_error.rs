@@ -14,11 +14,11 @@
 //! ```
 //!
 //! Nothing is concluded from how little the last two cycles differ. Where points come into contact or leave it within a jump the error falls more slowly than the square: with the power
-//! 3/2 the halves are off by `1 / (√2 - 1)` times the difference, 2.4 times as much as this says. [`UNSURE`] covers that. Errors of all jumps add up without sign: wear makes differences of depth smaller
+//! 3/2 the halves are off by `1 / (√2 - 1)` times the difference, 2.4 times as much as this says. [`UNCERTAINTY_OF_HALVES`] covers that. Errors of all jumps add up without sign: wear makes differences of depth smaller
 //! with time, and not larger.
 
 /// By how much the error of halves may be larger than a rate that changes evenly makes it: `1 / (√2 - 1)`.
-const UNSURE: f64 = 2.414_213_562_373_095;
+const UNCERTAINTY_OF_HALVES: f64 = 2.414_213_562_373_095;
 
 /// A place that wears: whether it is on the primary, and its area `[m²]`.
 pub(super) type Place = (bool, f64);
@@ -69,7 +69,7 @@ impl JumpError {
         let mut after = self.clone();
         after.change = change.collect();
         add(&mut after.worn, 1.0, both);
-        let factor = UNSURE * error(h, k);
+        let factor = UNCERTAINTY_OF_HALVES * error(h, k);
         let change = after.change.clone();
         add(&mut after.off, factor, &change);
         after
@@ -95,7 +95,7 @@ impl JumpError {
         }
         let mut n = most;
         while n >= 2.0 {
-            let factor = UNSURE * error(0.5 * n, 0.5 * n);
+            let factor = UNCERTAINTY_OF_HALVES * error(0.5 * n, 0.5 * n);
             if self.off_with(places, factor, rates, n).worst() <= part {
                 return n;
             }
@@ -172,7 +172,7 @@ mod tests {
         let made = JumpError::default();
         let after = made.with_halves(&[vec![whole]], &[vec![halves]], [3, 4]);
         let off = after.off(&[vec![(false, 2.0)]]);
-        let exact = UNSURE * (halves - every).abs() / halves;
+        let exact = UNCERTAINTY_OF_HALVES * (halves - every).abs() / halves;
         assert!((off.volume - exact).abs() < 1e-12, "{off:?} {exact}");
         assert!((off.depth - exact).abs() < 1e-12, "{off:?} {exact}");
     }

@@ -140,7 +140,7 @@ pub(super) fn find_modes(run: &mut Run, observers: &mut [&mut dyn Observer]) -> 
     if let Some(fastest) = chosen(&outcome, None) {
         let figures = modal::FIGURES.map(String::from).into_iter();
         let size = fastest.growth.hypot(TAU * fastest.frequency);
-        let grows = fastest.growth.abs() > modal::quadratic::UNSTABLE * size;
+        let grows = fastest.growth.abs() > modal::quadratic::UNSTABLE_GROWTH * size;
         let values = [if grows { fastest.growth } else { 0.0 }, fastest.frequency];
         run.summary.last.extend(figures.zip(values));
         for (k, mode) in outcome.modes.iter().take(modal::TOLD).enumerate() {

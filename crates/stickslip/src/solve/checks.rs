@@ -7,15 +7,7 @@ use crate::math::larger;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::system::{Cause, State, StepFailure};
-
-/// Out-of-balance force relative to the forces in play that rounding may leave in a recovered interior.
-const LEFT: f64 = 1e-6;
-
-/// Forces that are none, relative to the largest there were in the analysis.
-const NOTHING: f64 = 1e-8;
-
-/// Roundings of stiffness times displacement that may be left.
-const ROUNDINGS: f64 = 1e4;
+use crate::tolerance::NEGLIGIBLE;
 
 /// The forces of an increment whose interior was found from that of its contact candidates.
 pub(crate) struct Recovered<'a> {
@@ -47,9 +39,11 @@ impl Recovered<'_> {
             }
         }
         let size = reactions.max(self.contact).max(self.others).sqrt();
-        let limit = ((10.0 * tolerance).max(LEFT) * size)
-            .max(ROUNDINGS * f64::EPSILON * rounding.sqrt())
-            .max(NOTHING * *largest);
+        let limit = ((10.0 * tolerance).max(NEGLIGIBLE) * size)
+            // Rounding may leave so much in a recovered interior.
+            .max(1e4 * f64::EPSILON * rounding.sqrt())
+            // Forces below this part of the largest there were in the analysis are none.
+            .max(1e-8 * *largest);
         if !(limit.is_finite() && left.sqrt() <= limit) {
             return Err(StepFailure::new(
                 Cause::Interior,

@@ -7,35 +7,32 @@ use crate::model::scene::Scene;
 use crate::newton::condensed::Cost;
 
 /// Multiplications and additions of dense matrices in a second. Only ratios of these rates matter, and they differ little between machines.
-const DENSE: f64 = 3e10;
+const DENSE_RATE: f64 = 3e10;
 
 /// Entries of a matrix that memory delivers in a second.
-const STREAM: f64 = 1.2e9;
+const MEMORY_RATE: f64 = 1.2e9;
 
-/// Newton iterations of a quasi-static and of a dynamic increment, and Krylov iterations of each.
+/// Newton iterations of a quasi-static and of a dynamic increment. Tuned.
 const NEWTON: [f64; 2] = [2.5, 1.5];
-const KRYLOV: f64 = 6.0;
+/// Krylov iterations of a Newton iteration of condensed bodies. Tuned.
+const KRYLOV_ITERATIONS: f64 = 6.0;
 /// Newton iterations of a quasi-static increment in which bodies turn on axles, as their contact goes on to other points in each: 5.6 and 4.9 in the examples `gear-pair` and
 /// `geneva-drive`, 6.5 in `rolling-wheel` and `bentall-johnson`.
 const NEWTON_TURNING: f64 = 6.0;
 
-/// Newton iterations that one factor of the gaps serves.
-const SERVES: f64 = 6.0;
+/// Newton iterations that one factor of the gaps serves. Tuned.
+const NEWTON_A_FACTOR: f64 = 6.0;
 
-/// With the sparse matrix: Krylov iterations of a Newton iteration, Newton iterations that one factor serves, and the time of a solution over that of
-/// reading the factor twice. Between what press-and-slide in slip (7, 5, 1.8) and a slab with its whole face in contact (12, 3, 1.8) took.
+/// Krylov iterations of a Newton iteration with the sparse matrix: press-and-slide in slip took 7, and a slab with its whole face in
+/// contact 12.
 const SPARSE_KRYLOV: f64 = 10.0;
-const SPARSE_SERVES: f64 = 4.0;
+/// Newton iterations that one factor of the sparse matrix serves: 5 and 3 in the same problems.
+const SPARSE_NEWTON_A_FACTOR: f64 = 4.0;
 
 /// Least part of the arithmetic of a factor with the candidates last that one in an order of its own takes.
 const FREE_ORDER: f64 = 0.25;
+/// Time of a solution with the factor of the sparse matrix over that of reading it twice: 1.8 in the same problems.
 const SPARSE_SOLVE: f64 = 1.8;
-
-/// Candidate dofs relative to all below which no other way can be cheaper, if the inverse is not the larger part of the work.
-const FEW: f64 = 1.0 / 12.0;
-
-/// Part of the free memory that may be taken.
-const MEMORY: f64 = 0.85;
 
 /// Increments whose interiors are found in one sweep. Fixed, so that no number depends on when somebody looks.
 pub(crate) const TOGETHER: usize = 16;
@@ -43,20 +40,16 @@ pub(crate) const TOGETHER: usize = 16;
 /// Vectors by dof that an increment holds which waits for its interior: displacements, and what is swept to find it.
 const VECTORS: usize = 2;
 
-/// Seconds above which the other ways are looked at in any case: beside them it is nothing to order the sparse matrix as well.
-const LONG: f64 = 20.0;
-
-/// Increments counted at most.
-const MOST_INCREMENTS: f64 = 1e5;
-
-/// Seconds of a multigrid hierarchy, and of one of its iterations, a dof in three dimensions. The shapes of `cargo xtask peers shapes` and press-and-slide
-/// up to N = 36 took 0.4e-5 to 1.4e-5, and 2.3e-7 to 3.5e-7 where dense products run at 4.3e10.
-const SETUP: f64 = 1e-5;
-const CYCLE: f64 = 4.2e-7;
+/// Seconds of a multigrid hierarchy, a dof in three dimensions. The shapes of `cargo xtask peers shapes` and press-and-slide up to N = 36
+/// took 0.4e-5 to 1.4e-5.
+const GRID_SETUP: f64 = 1e-5;
+/// Seconds of an iteration of multigrid, a dof in three dimensions. The same problems took 2.3e-7 to 3.5e-7 where dense products run at
+/// 4.3e10.
+const GRID_CYCLE: f64 = 4.2e-7;
 
 /// Iterations that multigrid takes for one Newton iteration: of the same problems, slabs took 4 to 6, press-and-slide 6 in stick and 10 in slip, and a ball of
 /// which few points touch 22.
-const CYCLES: f64 = 10.0;
+const GRID_CYCLES: f64 = 10.0;
 
 /// Bytes of matrix, transformed matrix, hierarchy and Krylov vectors a dof.
 const GRID_BYTES: f64 = 3500.0;
@@ -96,29 +89,37 @@ pub(crate) fn choose(scene: &Scene, cost: &Cost, matrix: &BlockCsr, held: &[bool
         cost.condense,
         bytes / 1e9
     );
-    let fits = |bytes: f64| memory.is_none_or(|m| bytes < MEMORY * m);
+    // This part of the free memory may be taken.
+    let fits = |bytes: f64| memory.is_none_or(|m| bytes < 0.85 * m);
     // A product of the inverse, half of which is read, and now and then a small factor of the gaps.
     let gaps = (points * scene.model.dofs.dim) as f64;
     let gaps = gaps.min(candidates);
-    let one = KRYLOV * (cost.dense + gaps * gaps) / STREAM + gaps.powi(3) / (3.0 * DENSE * SERVES);
-    let sweeps = (0.25 * static_ + 2.0 * moving) * cost.nonzeros / STREAM;
-    let condensed = (cost.factor + cost.condense) / DENSE + iterations * one + sweeps;
-    if candidates <= FEW * free && cost.condense <= cost.factor && fits(bytes) && condensed < LONG {
+    let one = KRYLOV_ITERATIONS * (cost.dense + gaps * gaps) / MEMORY_RATE
+        + gaps.powi(3) / (3.0 * DENSE_RATE * NEWTON_A_FACTOR);
+    let sweeps = (0.25 * static_ + 2.0 * moving) * cost.nonzeros / MEMORY_RATE;
+    let condensed = (cost.factor + cost.condense) / DENSE_RATE + iterations * one + sweeps;
+    // With fewer candidates among all dofs no other way can be cheaper, if the inverse is not the larger part of the work. In more than
+    // 20 seconds the other ways are looked at in any case: beside them it is nothing to order the sparse matrix as well.
+    if candidates <= 1.0 / 12.0 * free
+        && cost.condense <= cost.factor
+        && fits(bytes)
+        && condensed < 20.0
+    {
         return Choice {
             method: Solution::Condensed,
             reason: what,
         };
     }
-    let grids = SETUP * free + iterations * CYCLES * CYCLE * free;
+    let grids = GRID_SETUP * free + iterations * GRID_CYCLES * GRID_CYCLE * free;
     let mut ways = vec![(Solution::Condensed, condensed, bytes)];
     // Only now it is worth while to know what the others cost; of the sparse matrix that takes an ordering of its own.
-    let refactored = 1.0 + iterations / SPARSE_SERVES;
-    let hopeless = fits(bytes) && FREE_ORDER * cost.factor / DENSE * refactored > condensed;
+    let refactored = 1.0 + iterations / SPARSE_NEWTON_A_FACTOR;
+    let hopeless = fits(bytes) && FREE_ORDER * cost.factor / DENSE_RATE * refactored > condensed;
     if !hopeless && let Ok(symbolic) = Symbolic::analyze(matrix, held, &[]) {
         let (flops, nonzeros) = (symbolic.flops(), symbolic.factor_nonzeros() as f64);
-        let sparse = flops / DENSE * refactored
+        let sparse = flops / DENSE_RATE * refactored
             + iterations * SPARSE_KRYLOV * SPARSE_SOLVE * (2.0 * nonzeros + matrix.nnz() as f64)
-                / STREAM;
+                / MEMORY_RATE;
         ways.push((Solution::Sparse, sparse, 10.0 * nonzeros));
     }
     if scene.model.dofs.dim == 3 {
@@ -163,7 +164,8 @@ fn increments_left(scene: &Scene) -> [f64; 2] {
             // they grow
             (s.increments.initial * s.increments.largest).sqrt()
         };
-        ((s.end - s.start) / length).clamp(1.0, MOST_INCREMENTS)
+        // So many increments are counted at most.
+        ((s.end - s.start) / length).clamp(1.0, 1e5)
     };
     for step in &scene.model.steps[scene.frame.step..] {
         counts[usize::from(step.dynamic.is_some())] += count(step);

@@ -7,9 +7,10 @@ use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::model::rigid::free_bodies::FreeBody;
-use crate::model::rigid::held::HELD;
+use crate::model::rigid::held::NO_RESISTANCE;
 use crate::model::rigid::null_space_below;
 use crate::time::Trial;
+use crate::tolerance::SAME;
 
 /// Where unconstrained bodies come to touch.
 pub(crate) struct Closure {
@@ -20,9 +21,6 @@ pub(crate) struct Closure {
     /// Unconstrained bodies that their loads push away from everything.
     pub unbalanced: Vec<usize>,
 }
-
-/// Force relative to the sum of the sizes of its parts that is rounding.
-const NO_FORCE: f64 = 1e-9;
 
 /// Most stretches of the way.
 const MOST_STRETCHES: usize = 20_000;
@@ -172,7 +170,7 @@ fn velocities(
         let along = basis
             .iter()
             .fold([0.0; 3], |s, &e| add_scaled(s, dot(force, e), e));
-        if norm(along) <= NO_FORCE * size {
+        if norm(along) <= SAME * size {
             continue;
         }
         let v = scale(1.0 / mass, along);
@@ -203,7 +201,7 @@ fn common(members: &[&FreeBody]) -> Vec<Vec3> {
             }
         }
     }
-    let free = null_space_below(&held, HELD).into_iter();
+    let free = null_space_below(&held, NO_RESISTANCE).into_iter();
     free.map(|v| [v[0], v[1], v[2]]).collect()
 }
 
@@ -213,7 +211,7 @@ fn turn(free: &FreeBody, external: &[f64], pulls: &[f64], mass: f64, w: &mut [f6
         let parts = motion.iter().zip(external).map(|(m, f)| m * f);
         let (force, size) = parts.fold((0.0, 0.0), |(s, a): (f64, f64), p| (s + p, a + p.abs()));
         let pull: f64 = motion.iter().zip(pulls).map(|(m, f)| m * f).sum();
-        if force.abs() <= NO_FORCE * size || force * (force + pull) <= 0.0 {
+        if force.abs() <= SAME * size || force * (force + pull) <= 0.0 {
             continue;
         }
         let square: f64 = motion.iter().map(|m| m * m).sum();

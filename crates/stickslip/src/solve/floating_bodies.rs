@@ -56,17 +56,15 @@ pub(super) struct Origin {
     pub(super) size: f64,
 }
 
-/// Way in rounds of the anchors that is made without strain before the increment is computed once more.
-const LONG: f64 = 0.5;
-
 /// How often bodies are moved as rigid ones in one increment.
 const MOST_MOVED: usize = 6;
 
 /// How often anchors are laid anew, firmer.
 const MOST_FIRMER: usize = 2;
 
-/// How much further an unconstrained body may go than the gaps it has to close and what moves it do: it may turn about a point near what pushes it.
-const LEVER: f64 = 10.0;
+/// How much further an unconstrained body may go than the gaps it has to close and what moves it do: it may turn about a point near what
+/// pushes it. Tuned.
+const LARGEST_LEVER: f64 = 10.0;
 
 impl Floating {
     /// Whether a body is among those that contact may hold in the step at hand.
@@ -230,7 +228,8 @@ impl Floating {
             floating.origin = None;
             return false;
         };
-        if anchors.travel() > LONG && floating.moved < MOST_MOVED && !rubs {
+        // The increment is computed once more if more than half of a round of the anchors is made without strain before.
+        if anchors.travel() > 0.5 && floating.moved < MOST_MOVED && !rubs {
             return true;
         }
         floating.moved = 0;
@@ -286,7 +285,7 @@ impl Floating {
             let strained = strained.fold(0.0, f64::max);
             let ways = points.iter().map(|&(_, moved)| norm(moved));
             let way = ways.fold(0.0, |m, way| if way > m || way.is_nan() { way } else { m });
-            let most = (LEVER * (origin.gaps + moved + strained) + origin.size).min(utmost);
+            let most = (LARGEST_LEVER * (origin.gaps + moved + strained) + origin.size).min(utmost);
             if way > most || way.is_nan() {
                 return Some(Astray {
                     body: free.bodies[0],

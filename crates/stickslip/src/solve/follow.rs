@@ -19,12 +19,7 @@ use crate::solve::condensed::{candidates, condensing};
 use crate::solve::released;
 use crate::system::{Stage, State};
 use crate::time::Trial;
-
-/// Part of a cell that a body may move in a round.
-const REACH: f64 = 0.25;
-
-/// Component of a motion along a normal from which on contact may resist it.
-const RESISTED: f64 = 1e-6;
+use crate::tolerance::NEGLIGIBLE;
 
 /// Finds the bodies that supports leave free and interfaces may hold in the step at hand.
 pub fn find_floating_bodies(solver: &mut Solver, model: &Model, frame: &Frame, contact: &Contact) {
@@ -53,7 +48,7 @@ pub fn find_floating_bodies(solver: &mut Solver, model: &Model, frame: &Frame, c
                 if free.has(model, point) {
                     met = true;
                     resisted |= free.motions.iter().any(|(_, motion)| {
-                        dot(dofs.vector(motion, point), normal).abs() > RESISTED
+                        dot(dofs.vector(motion, point), normal).abs() > NEGLIGIBLE
                     });
                 }
             }
@@ -236,7 +231,8 @@ pub fn anchor(
         let hold = Hold {
             spring,
             force,
-            max_step: REACH * size,
+            // A body may move a quarter of a cell in a round.
+            max_step: 0.25 * size,
             size,
             firmness: floating.firmness,
         };

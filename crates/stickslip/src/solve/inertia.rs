@@ -13,6 +13,7 @@ use crate::model::contact::Contact;
 use crate::model::definition::{ContactMass, Dynamic, Model};
 use crate::system::{Cause, Links, StepFailure};
 use crate::time::scheme::Alphas;
+use crate::tolerance::SAME;
 
 /// What resists acceleration and velocity.
 pub(crate) struct Inertia {
@@ -62,9 +63,6 @@ struct MatrixRecipe {
 
 /// Most matrices that are kept.
 const MOST_MATRICES: usize = 4;
-
-/// Lengths that differ by less than this part of themselves are one: what rounding of times leaves.
-const SAME: f64 = 1e-9;
 
 impl Inertia {
     /// Assembles the mass; `stiffness` gives the pattern.
@@ -192,6 +190,7 @@ impl Inertia {
     /// displacement at the end, over the weight that the interfaces have in it.
     pub fn ready(&mut self, stiffness: &BlockCsr, alphas: Alphas, dt: f64, weight: f64) -> f64 {
         let found = self.matrices.iter().position(|m| {
+            // Rounding of times leaves such a difference of lengths.
             (m.dt - dt).abs() <= SAME * dt && m.alphas == alphas && m.weight == weight
         });
         let matrix = match found {

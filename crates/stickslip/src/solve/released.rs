@@ -11,9 +11,7 @@ use crate::model::rigid::free_bodies::FreeBody;
 use crate::model::scene::Scene;
 use crate::solve::follow;
 use crate::time::Trial;
-
-/// Force of contact on a body, relative to the largest load so far, that does not press it. Anchors give up when they carry less.
-const NOT_PRESSED: f64 = 1e-6;
+use crate::tolerance::NEGLIGIBLE;
 
 /// The load on a floating body along its free motions: the largest, each of which has a largest displacement of one.
 fn along(free: &FreeBody, external: &[f64]) -> f64 {
@@ -110,7 +108,8 @@ pub fn note_released(solver: &mut Solver, model: &Model, frame: &Frame, accepted
     let before = pressed(floating, model, &frame.contact);
     let after = pressed(floating, model, &accepted.contact);
     let known = before.iter().chain(&floating.pushed);
-    let none = NOT_PRESSED * known.copied().fold(0.0, f64::max);
+    // Anchors give up when they carry less.
+    let none = NEGLIGIBLE * known.copied().fold(0.0, f64::max);
     let mut released = Vec::new();
     for (k, free) in floating.bodies().iter().enumerate() {
         let pressed = floating.pushed[k] > none || before[k] > none;

@@ -1,5 +1,7 @@
 //! The size of increments: halved on failure, grown when easy, landing on the times that matter.
 
+use crate::tolerance::SAME;
+
 /// Increments of one step, as times.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Increments {
@@ -31,12 +33,8 @@ pub struct Stepper {
     growth: f64,
 }
 
-/// Milestones that are nearer than this fraction of the step are one.
-const SLIVER: f64 = 1e-9;
 /// Newton iterations up to which an increment counts as easy.
-const EASY: usize = 8;
-/// Growth after two easy increments in a row.
-const GROWTH: f64 = 1.5;
+const EASY_ITERATIONS: usize = 8;
 
 impl Stepper {
     /// From `start` to the last of the `milestones`, none of which is stepped over. They are sorted; those not after
@@ -47,7 +45,8 @@ impl Stepper {
         milestones.dedup();
         // A table that jumps has two rows an instant apart: one landing is enough, and none right after the start.
         let end = milestones.last().copied().unwrap_or(start);
-        let instant = SLIVER * (end - start);
+        // Milestones that are nearer are one.
+        let instant = SAME * (end - start);
         let mut last = start;
         milestones.retain(|&t| {
             let kept = t - last > instant && end - t > instant || t == end;
@@ -62,7 +61,8 @@ impl Stepper {
             now: start,
             wish: increments.initial,
             easy: 0,
-            growth: GROWTH,
+            // Growth after two easy increments in a row.
+            growth: 1.5,
         }
     }
 
@@ -94,7 +94,7 @@ impl Stepper {
 
     /// Goes on from a later time; that, or a milestone an instant from it.
     pub fn leap(&mut self, to: f64) -> f64 {
-        let instant = SLIVER * self.milestones.last().copied().unwrap_or(to).abs();
+        let instant = SAME * self.milestones.last().copied().unwrap_or(to).abs();
         let near = self.milestones.partition_point(|&t| t < to - instant);
         let near = self.milestones.get(near).filter(|&&t| t <= to + instant);
         self.now = near.copied().unwrap_or(to);
@@ -128,7 +128,11 @@ impl Stepper {
     /// The increment was accepted after `iterations`.
     pub fn accept(&mut self, trial: Trial, iterations: usize) {
         self.now = trial.to;
-        self.easy = if iterations <= EASY { self.easy + 1 } else { 0 };
+        self.easy = if iterations <= EASY_ITERATIONS {
+            self.easy + 1
+        } else {
+            0
+        };
         if self.easy >= 2 {
             self.wish = (self.wish * self.growth).min(self.increments.largest);
             self.easy = 0;

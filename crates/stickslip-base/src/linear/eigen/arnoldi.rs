@@ -32,13 +32,10 @@ pub struct Nearest {
 pub type Found = (Complex, f64);
 
 /// Vectors of a block: eigenvalues that come as often as that are all found, of equal bodies and of what is symmetric.
-const BLOCK: usize = 4;
+const BLOCK_VECTORS: usize = 4;
 
 /// Blocks between two looks at what has converged.
-const LOOK: usize = 4;
-
-/// Part of a vector that has to be left after orthogonalisation to count as a new direction.
-const DEPENDENT: f64 = 1e-13;
+const BLOCKS_A_LOOK: usize = 4;
 
 /// Eigenvalues of largest size, until `enough` says so of their values and residuals, largest first, or the space has `most` dimensions. Of a complex pair the one with
 /// a positive imaginary part is returned.
@@ -52,7 +49,7 @@ pub fn arnoldi(
 ) -> Vec<Nearest> {
     let mut seed = 0xa5eed;
     let mut start = || (0..krylov.size).map(|_| noise(&mut seed)).collect();
-    let start: Vec<Vec<f64>> = (0..BLOCK).map(|_| start()).collect();
+    let start: Vec<Vec<f64>> = (0..BLOCK_VECTORS).map(|_| start()).collect();
     // What the operator never reaches must not be in the start.
     let start = (krylov.apply)(&start);
     let start = (krylov.apply)(&start);
@@ -67,7 +64,7 @@ pub fn arnoldi(
         h.extend(extend(&mut q, images));
         blocks += 1;
         let done = q.len() == known || known >= most;
-        if done || blocks % LOOK == 0 {
+        if done || blocks % BLOCKS_A_LOOK == 0 {
             let ritz = ritz(&h, q.len());
             let values: Vec<Found> = ritz.iter().map(|r| (r.0, r.1)).collect();
             if done || enough(&values) {
@@ -92,7 +89,8 @@ fn extend(q: &mut Vec<Vec<f64>>, vectors: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
             }
         }
         let left = dot(&w, &w).sqrt();
-        if left.is_finite() && left > DEPENDENT * size && left > f64::MIN_POSITIVE {
+        // Part of a vector that has to be left after orthogonalisation to count as a new direction.
+        if left.is_finite() && left > 1e-13 * size && left > f64::MIN_POSITIVE {
             column.push(left);
             w.iter_mut().for_each(|v| *v /= left);
             q.push(w);
@@ -116,7 +114,7 @@ fn ritz(h: &[Vec<f64>], all: usize) -> Vec<Ritz> {
     let size = |z: &Complex| z[0].hypot(z[1]);
     // The images of the last vectors alone leave what is known.
     let left = |s: &[Complex], i: usize, k: usize| -> f64 {
-        let last = n.saturating_sub(2 * BLOCK)..n;
+        let last = n.saturating_sub(2 * BLOCK_VECTORS)..n;
         last.map(|j| entry(i, j) * s[j][k]).sum()
     };
     let pairs = values.into_iter().zip(vectors);

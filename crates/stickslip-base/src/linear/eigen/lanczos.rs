@@ -5,13 +5,10 @@ use super::vectors::{axpy, noise};
 use crate::math::vector::dot_in_fours as dot;
 
 /// Vectors of a block: modes that come as often as that are found together.
-const BLOCK: usize = 4;
-
-/// Part of a column that has to be left after orthogonalisation to count as a new direction.
-const DEPENDENT: f64 = 1e-10;
+const BLOCK_VECTORS: usize = 4;
 
 /// Most passes, each from a start that is orthogonal to what is known.
-const MOST_PASSES: usize = 40;
+const LANCZOS_PASSES: usize = 40;
 
 /// `K x = λ M x` with `K` symmetric, `M` symmetric and not negative, and a factor of `K + shift M`, which is positive.
 pub struct Pencil<'a> {
@@ -78,8 +75,8 @@ pub fn lanczos(pencil: &Pencil, wanted: Wanted) -> RealModes {
     let mut seed = 0x5eed;
     let mut start: Vec<Vec<f64>> = Vec::new();
     let mut no_progress = 0;
-    for _ in 0..MOST_PASSES {
-        while start.len() < BLOCK {
+    for _ in 0..LANCZOS_PASSES {
+        while start.len() < BLOCK_VECTORS {
             let fresh: Vec<f64> = (0..pencil.size).map(|_| noise(&mut seed)).collect();
             // What the mass does not see must not be in it.
             let mut image = vec![0.0; pencil.size];
@@ -161,7 +158,7 @@ fn pass(
     solves: &mut usize,
 ) -> Pass {
     let missing = wanted.count.saturating_sub(found.len());
-    let most = (2 * missing + 12 * BLOCK).max(60).min(pencil.free);
+    let most = (2 * missing + 12 * BLOCK_VECTORS).max(60).min(pencil.free);
     let mut basis = Basis::default();
     let mut block = orthonormal(pencil, &basis, found, start).0;
     let room = |basis: &Basis| pencil.free.saturating_sub(found.len() + basis.q.len());
@@ -207,7 +204,9 @@ fn pass(
                 .filter(|r| r.theta >= edge * (1.0 - 1e-9));
             let converged = wanted.map(|r| basis.mode(r)).collect();
             let go_on = full && !nothing_left && !enough;
-            let ahead = ritz[leading..].iter().take(if go_on { BLOCK } else { 0 });
+            let ahead = ritz[leading..]
+                .iter()
+                .take(if go_on { BLOCK_VECTORS } else { 0 });
             return Pass {
                 converged,
                 next: ahead.map(|r| basis.mode(r).x).collect(),
@@ -316,7 +315,8 @@ fn orthonormal(
         }
         (pencil.mass)(&x, &mut mx);
         let norm = dot(&x, &mx).max(0.0).sqrt();
-        if norm > DEPENDENT * before && norm > f64::MIN_POSITIVE {
+        // Part of a column that has to be left after orthogonalisation to count as a new direction.
+        if norm > 1e-10 * before && norm > f64::MIN_POSITIVE {
             x.iter_mut().for_each(|v| *v /= norm);
             mx.iter_mut().for_each(|v| *v /= norm);
             column.push(norm);

@@ -13,20 +13,17 @@ use faer::{Accum, MatMut, MatRef, Par, Spec};
 use rayon::prelude::*;
 
 /// Columns of a panel eliminated at a time.
-pub(super) const BLOCK: usize = 128;
+pub(super) const PANEL_COLUMNS: usize = 128;
 
 /// Rows and columns of a product made at a time, and the depth to which it is made; fixed, so that results never depend on the number of
 /// threads. A target of this size stays in the second cache while all depth is added to it: on an AVX-512 core with 2 MiB of it 60 GF/s for
 /// a product of order 2352 and depth 512 to 1000, where one call for the whole reaches 50, and where sizes of 192 to 768 and depths of 96
 /// to 256 reach 54 to 60.
-const TILE: usize = 240;
-const DEPTH: usize = 128;
+const PRODUCT_TILE: usize = 240;
+const PRODUCT_DEPTH: usize = 128;
 
 /// Columns of the root that one task adds to.
-const CHUNK: usize = 384;
-
-/// Fronts with less work stay in one task \[additions and multiplications\].
-const LARGE: f64 = 5e7;
+const ROOT_COLUMNS_PER_TASK: usize = 384;
 
 /// A contribution to be added: its order, the local rows of the front above, and its values.
 #[derive(Clone, Copy)]
@@ -37,7 +34,8 @@ pub(super) struct Child<'a> {
 
 /// Whether a front is large enough to be shared by tasks.
 pub(super) fn is_large(flops: f64) -> bool {
-    flops > LARGE
+    // Fronts with less work, in additions and multiplications, stay in one task.
+    flops > 5e7
 }
 
 /// Runs of targets that follow each other.
@@ -110,7 +108,7 @@ fn add_children(
 /// Adds the contributions of the children to the panel of a front with `columns` columns.
 pub(super) fn add_to_panel(panel: &mut [f64], columns: usize, children: &[Child], large: bool) {
     let height = panel.len() / columns.max(1);
-    let width = if large { BLOCK } else { columns.max(1) };
+    let width = if large { PANEL_COLUMNS } else { columns.max(1) };
     let add = |(chunk, part): (usize, &mut [f64])| {
         let start = chunk * width;
         add_children(
@@ -136,13 +134,13 @@ pub(super) fn add_to_panel(panel: &mut [f64], columns: usize, children: &[Child]
 pub(super) fn factor_panel(panel: &mut [f64], columns: usize, large: bool) -> Result<(), usize> {
     let height = panel.len() / columns.max(1);
     let mut memory = MemBuffer::new(cholesky_in_place_scratch::<f64>(
-        BLOCK.min(columns),
+        PANEL_COLUMNS.min(columns),
         Par::Seq,
         Spec::default(),
     ));
     let mut start = 0;
     while start < columns {
-        let width = BLOCK.min(columns - start);
+        let width = PANEL_COLUMNS.min(columns - start);
         let (done, rest) = panel.split_at_mut(start * height);
         let done = MatRef::from_column_major_slice(&*done, height, start);
         let block = &mut rest[..width * height];
@@ -182,9 +180,9 @@ fn row_tiles<'a>(
     mut rows: MatMut<'a, f64>,
     mut done: MatRef<'a, f64>,
 ) -> Vec<(MatMut<'a, f64>, MatRef<'a, f64>)> {
-    let mut tiles = Vec::with_capacity(rows.nrows().div_ceil(TILE));
+    let mut tiles = Vec::with_capacity(rows.nrows().div_ceil(PRODUCT_TILE));
     while rows.nrows() > 0 {
-        let height = TILE.min(rows.nrows());
+        let height = PRODUCT_TILE.min(rows.nrows());
         let (own, rest) = rows.split_at_row_mut(height);
         let (above, below) = done.split_at_row(height);
         tiles.push((own, above));
@@ -200,8 +198,8 @@ fn slices<'a>(
     right: MatRef<'a, f64>,
 ) -> impl Iterator<Item = (Accum, MatRef<'a, f64>, MatRef<'a, f64>)> {
     let depth = left.ncols();
-    (0..depth.max(1)).step_by(DEPTH).map(move |from| {
-        let count = DEPTH.min(depth - from);
+    (0..depth.max(1)).step_by(PRODUCT_DEPTH).map(move |from| {
+        let count = PRODUCT_DEPTH.min(depth - from);
         let accum = if from == 0 { accum } else { Accum::Add };
         let (left, right) = (left.subcols(from, count), right.subcols(from, count));
         (accum, left, right)
@@ -249,7 +247,7 @@ pub(super) fn contribute(
     let below = MatRef::from_column_major_slice(panel, columns + rows, columns);
     let below = below.split_at_row(columns).1;
     let fill = |(chunk, part): (usize, &mut [f64])| {
-        let start = chunk * TILE;
+        let start = chunk * PRODUCT_TILE;
         let count = part.len() / rows;
         let target = MatMut::from_column_major_slice_mut(&mut *part, rows, count);
         let (_, target) = target.split_at_row_mut(start);
@@ -262,7 +260,7 @@ pub(super) fn contribute(
         let wanted = columns + start..columns + start + count;
         add_children(part, rows, columns, wanted, children);
     };
-    let chunks = TILE * rows;
+    let chunks = PRODUCT_TILE * rows;
     if large {
         let chunks = contribution.par_chunks_mut(chunks).enumerate();
         chunks.for_each(fill);
@@ -275,10 +273,10 @@ pub(super) fn contribute(
 /// Adds a contribution to the lower triangle of the root of order `order`.
 pub(super) fn add_to_root(root: &mut [f64], order: usize, child: Child) {
     if order > 0 {
-        root.par_chunks_mut(CHUNK * order)
+        root.par_chunks_mut(ROOT_COLUMNS_PER_TASK * order)
             .enumerate()
             .for_each(|(chunk, part)| {
-                let start = chunk * CHUNK;
+                let start = chunk * ROOT_COLUMNS_PER_TASK;
                 let wanted = start..start + part.len() / order;
                 add_children(part, order, 0, wanted, &[child]);
             });

@@ -17,7 +17,7 @@ use crate::keep::{Keep, Kept};
 const MAGIC: &[u8; 8] = b"mfllt\0\0\x01";
 
 /// Numbers converted at a time.
-const CHUNK: usize = 8192;
+const CONVERTED_AT_A_TIME: usize = 8192;
 
 /// Writes the analysis and the factor. No checksum is added.
 ///
@@ -214,10 +214,10 @@ fn check(mut fronts: Fronts, row_counts: &[u32]) -> Option<Fronts> {
 }
 
 fn write_indices(out: &mut dyn Write, indices: impl Iterator<Item = u32>) -> io::Result<()> {
-    let mut bytes = Vec::with_capacity(4 * CHUNK);
+    let mut bytes = Vec::with_capacity(4 * CONVERTED_AT_A_TIME);
     for index in indices {
         bytes.extend(index.to_le_bytes());
-        if bytes.len() == 4 * CHUNK {
+        if bytes.len() == 4 * CONVERTED_AT_A_TIME {
             out.write_all(&bytes)?;
             bytes.clear();
         }
@@ -227,9 +227,9 @@ fn write_indices(out: &mut dyn Write, indices: impl Iterator<Item = u32>) -> io:
 
 fn read_indices(input: &mut dyn Read, count: usize) -> io::Result<Vec<u32>> {
     let mut indices = Vec::new();
-    let mut bytes = [0; 4 * CHUNK];
+    let mut bytes = [0; 4 * CONVERTED_AT_A_TIME];
     while indices.len() < count {
-        let bytes = &mut bytes[..4 * CHUNK.min(count - indices.len())];
+        let bytes = &mut bytes[..4 * CONVERTED_AT_A_TIME.min(count - indices.len())];
         input.read_exact(bytes)?;
         let words = bytes.chunks_exact(4);
         indices.extend(words.map(|w| u32::from_le_bytes([w[0], w[1], w[2], w[3]])));
@@ -240,7 +240,7 @@ fn read_indices(input: &mut dyn Read, count: usize) -> io::Result<Vec<u32>> {
 /// The panels of some fronts, zero above the diagonal.
 fn read_panels(input: &mut dyn Read, fronts: &Fronts, range: Range<usize>) -> io::Result<Vec<f64>> {
     let mut panels: Vec<f64> = Vec::new();
-    let mut bytes = vec![0; 8 * CHUNK];
+    let mut bytes = vec![0; 8 * CONVERTED_AT_A_TIME];
     for front in range {
         let (columns, rows) = fronts.sizes(front);
         for j in 0..columns {
@@ -248,7 +248,7 @@ fn read_panels(input: &mut dyn Read, fronts: &Fronts, range: Range<usize>) -> io
             panels.resize(diagonal, 0.0);
             let mut left = columns + rows - j;
             while left > 0 {
-                let bytes = &mut bytes[..8 * CHUNK.min(left)];
+                let bytes = &mut bytes[..8 * CONVERTED_AT_A_TIME.min(left)];
                 input.read_exact(bytes)?;
                 left -= bytes.len() / 8;
                 panels.extend(

@@ -10,7 +10,7 @@ use super::dense::{self, Child};
 use super::symbolic::Fronts;
 
 /// Children of the root worked on at a time; their contributions are added in order.
-const TOGETHER: usize = 8;
+const CHILDREN_TOGETHER: usize = 8;
 
 /// A pivot counts as zero below this many roundings (2.2e-16) per free dof, relative to its diagonal \[1\].
 ///
@@ -199,7 +199,7 @@ impl Work<'_> {
         let last: Vec<usize> = (0..fronts.pieces.len())
             .filter(|&at| fronts.pieces[at].last)
             .collect();
-        for group in last.chunks(TOGETHER) {
+        for group in last.chunks(CHILDREN_TOGETHER) {
             for (&at, done) in group.iter().zip(self.pieces(group)) {
                 let (contribution, pivot) = done?;
                 smallest = smaller(smallest, pivot);

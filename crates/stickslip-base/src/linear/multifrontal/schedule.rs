@@ -5,12 +5,6 @@ use std::ops::Range;
 use super::super::ordering::NONE;
 use super::tree::FrontTree;
 
-/// A subtree is split while it holds more than this part of all work.
-const PARTS: f64 = 16.0;
-
-/// Work that is not worth a task of its own \[additions and multiplications\].
-const SMALL: f64 = 1e7;
-
 /// Splitting ends at this depth, so that the recursion over pieces stays shallow.
 const DEEPEST: usize = 64;
 
@@ -47,7 +41,9 @@ impl Piece {
             .filter(|&front| tree.parents[front] == NONE)
             .map(|front| work[front])
             .sum();
-        let most = (total / PARTS).max(SMALL);
+        // A subtree is split while it holds more than a sixteenth of all work, and more than 1e7 additions and multiplications: less is not
+        // worth a task of its own.
+        let most = (total / 16.0).max(1e7);
         // Parents come after their children: go down from the last.
         let mut split = vec![false; n];
         let mut depth = vec![0; n];

@@ -14,7 +14,7 @@ use super::numeric::PartialFactor;
 use super::symbolic::Fronts;
 
 /// Columns that share one pass over the factor.
-const TOGETHER: usize = 32;
+const COLUMNS_A_PASS: usize = 32;
 
 /// One pass over the factor. Vectors are stored position by position, the columns of a position side by side.
 struct Sweep<'a> {
@@ -34,8 +34,8 @@ pub fn forward(factor: &PartialFactor, interior: &mut [f64], root: &mut [f64], c
     if columns == 1 {
         return Sweep::new(factor, interior, 1).forward(root);
     }
-    for start in (0..columns).step_by(TOGETHER) {
-        let count = TOGETHER.min(columns - start);
+    for start in (0..columns).step_by(COLUMNS_A_PASS) {
+        let count = COLUMNS_A_PASS.min(columns - start);
         let interior = &mut interior[start * n..(start + count) * n];
         let root = &mut root[start * c..(start + count) * c];
         let mut x = side_by_side(interior, n, count);
@@ -56,8 +56,8 @@ pub fn backward(factor: &PartialFactor, interior: &mut [f64], root: &[f64], colu
     if columns == 1 {
         return Sweep::new(factor, interior, 1).backward(root);
     }
-    for start in (0..columns).step_by(TOGETHER) {
-        let count = TOGETHER.min(columns - start);
+    for start in (0..columns).step_by(COLUMNS_A_PASS) {
+        let count = COLUMNS_A_PASS.min(columns - start);
         let interior = &mut interior[start * n..(start + count) * n];
         let root = &root[start * c..(start + count) * c];
         let (mut x, w) = (

@@ -1,9 +1,6 @@
 use super::blocks::{Block, Rows, convert};
 use crate::math::vector::dot_in_fours;
 
-/// Pivots below this part of their diagonal count as zero \[1\]: an unconstrained body.
-const SINGULAR: f64 = 1e-11;
-
 /// The coarsest operator, factored. Directions without stiffness are left out: the solution is zero along them.
 #[derive(Debug, Clone)]
 pub(super) struct Bottom {
@@ -69,7 +66,8 @@ impl Bottom {
                 };
             }
             let pivot = before - dot_in_fours(&row[..i], &row[..i]);
-            row[i] = if pivot > SINGULAR * before {
+            // A pivot below this part of its diagonal counts as zero [1]: an unconstrained body.
+            row[i] = if pivot > 1e-11 * before {
                 pivot.sqrt()
             } else {
                 self.singular |= before > 0.0;

@@ -10,8 +10,6 @@ use super::settings::MultigridSettings;
 
 /// Levels at most; coarsening that stops to reduce ends before.
 const MAX_LEVELS: usize = 12;
-/// Aggregates may unite bodies where a level keeps more than this part of the nodes of the one before.
-const TOO_MANY: f64 = 0.5;
 
 /// Levels with `B` dofs a node on the finest and `M` on the others.
 #[derive(Debug, Clone)]
@@ -77,7 +75,8 @@ impl<const B: usize, const M: usize> Hierarchy<B, M> {
             let normals = vec![None; nodes.modes.len()];
             let next = coarsen(&matrix, &[], &nodes, &normals, &settings, 0.0, scale);
             let kept = next.nodes.modes.len() as f64 / nodes.modes.len() as f64;
-            if kept > TOO_MANY {
+            // Aggregates may unite bodies where a level keeps more than this part of the nodes of the one before.
+            if kept > 0.5 {
                 // Many small bodies. Gap variables stay among themselves.
                 let united = |(&gap, &group): (&bool, &u32)| if gap { 1 + group % 3 } else { 0 };
                 let groups: Vec<u32> = nodes.gaps.iter().zip(&nodes.groups).map(united).collect();

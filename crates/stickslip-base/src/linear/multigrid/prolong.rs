@@ -19,11 +19,6 @@ pub(super) struct Nodes<const B: usize, const M: usize> {
 /// A direction for every node whose modes are to be split.
 pub(super) type Normals = [Option<[f64; 3]>];
 
-/// Part of a mode's remainder below which it counts as dependent on the modes before it.
-const DEPENDENT: f64 = 1e-3;
-/// The same relative to the modes of the whole aggregate: rounding.
-const ROUNDING: f64 = 1e-10;
-
 /// The tentative prolongation, whose columns are orthonormal and contain the rigid modes, and the coarse nodes.
 ///
 /// The aggregates of nodes with a normal become two coarse nodes, one that moves along the normals and one across:
@@ -148,7 +143,9 @@ fn orthonormal<const B: usize, const M: usize>(
             }
         }
         let after = dot(&columns, m, m).sqrt();
-        let keep = after > DEPENDENT * before && after > ROUNDING * scales[m];
+        // A mode depends on those before it if less than 1e-3 of its remainder is left, or less of the modes of the whole aggregate than
+        // rounding leaves.
+        let keep = after > 1e-3 * before && after > 1e-10 * scales[m];
         let factor = if keep { 1.0 / after } else { 0.0 };
         for row in columns.iter_mut().flatten() {
             row[m] *= factor;

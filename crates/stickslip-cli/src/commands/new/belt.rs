@@ -71,8 +71,8 @@ impl Cycle {
     }
 }
 
-/// Times of stick or of a swing over each other from which on one of them needs increments that the other does not.
-const UNEVEN: f64 = 200.0;
+/// Times of stick or of a swing over each other from which on one of them needs increments that the other does not. Tuned.
+const UNEVEN_TIMES: f64 = 200.0;
 
 /// The problem and what is expected of it.
 ///
@@ -90,7 +90,7 @@ pub fn write(a: &Arguments) -> Result<Written, Failure> {
     }
     let cycle = Cycle::of(a);
     let period = TAU / cycle.omega;
-    if cycle.stick > UNEVEN * period {
+    if cycle.stick > UNEVEN_TIMES * period {
         return Err(Failure::Arguments(
             format!(
                 "the mass would stick for {} s and slip for {} s: too far apart for increments of one size",
@@ -99,7 +99,7 @@ pub fn write(a: &Arguments) -> Result<Written, Failure> {
             ),
             format!(
                 "a belt that is faster than {} m/s, or a softer spring",
-                digits(2.0 * cycle.reach / (UNEVEN * period), 3)
+                digits(2.0 * cycle.reach / (UNEVEN_TIMES * period), 3)
             ),
         ));
     }

@@ -39,9 +39,11 @@ pub struct Arguments {
 
 const TEMPLATE: &str = include_str!("bolt.template");
 
-/// Hole and head of a bolt over its diameter: a hole of the medium series, a head of ISO 4017 as a disc.
-const HOLE: f64 = 1.1;
-const HEAD: f64 = 1.6;
+/// Diameter of the hole over that of the bolt: the medium series.
+const HOLE_DIAMETER: f64 = 1.1;
+/// Diameter of the head of a bolt, as a disc, over that of the bolt (ISO 4017).
+const HEAD_DIAMETER: f64 = 1.6;
+/// Height of the head of a bolt over the diameter of the bolt (ISO 4017).
 const HEAD_HEIGHT: f64 = 0.65;
 
 /// Bars: what bolt and sleeve do, with the head rigid.
@@ -87,14 +89,17 @@ pub fn write(a: &Arguments) -> Result<Written, Failure> {
         ("r", 0.5 * d * MM),
         ("grip", a.grip * MM),
         ("half-grip", 0.5 * a.grip * MM),
-        ("head", 0.5 * HEAD * d * MM),
+        ("head", 0.5 * HEAD_DIAMETER * d * MM),
         ("top", (a.grip + HEAD_HEIGHT * d) * MM),
-        ("hole", 0.5 * HOLE * d * MM),
+        ("hole", 0.5 * HOLE_DIAMETER * d * MM),
         ("sleeve", 0.5 * joint.sleeve * MM),
         ("shank-cells", cells(a.grip + d)),
-        ("head-cells", cells(0.5 * HEAD * d)),
+        ("head-cells", cells(0.5 * HEAD_DIAMETER * d)),
         ("head-rows", cells(HEAD_HEIGHT * d)),
-        ("wall-cells", cells(0.5 * (joint.sleeve - HOLE * d))),
+        (
+            "wall-cells",
+            cells(0.5 * (joint.sleeve - HOLE_DIAMETER * d)),
+        ),
         ("grip-cells", cells(a.grip)),
         ("young", a.young * MPA),
         ("poisson", a.poisson),
@@ -115,8 +120,8 @@ fn joint(a: &Arguments) -> Result<Joint, Failure> {
     let sleeve = a.sleeve.unwrap_or(2.5 * a.diameter);
     sound(a, stress, sleeve).map_err(|(message, help)| Failure::Arguments(message, help))?;
     // Of the sleeve what lies within the head and a cone of 30° to each end takes part (VDI 2230, in its plainest form).
-    let cone = HEAD * a.diameter + a.grip * f64::tan(PI / 6.0);
-    let pressed = area(sleeve.min(cone), HOLE * a.diameter);
+    let cone = HEAD_DIAMETER * a.diameter + a.grip * f64::tan(PI / 6.0);
+    let pressed = area(sleeve.min(cone), HOLE_DIAMETER * a.diameter);
     // The shank goes on below the joint to where it is held.
     let bolt = shank / (a.grip + a.diameter);
     let share = bolt / (bolt + pressed / a.grip);
@@ -131,7 +136,7 @@ fn joint(a: &Arguments) -> Result<Joint, Failure> {
 fn sound(a: &Arguments, stress: f64, sleeve: f64) -> Result<(), (String, String)> {
     let mm = |x: f64| digits(x * MM, 3);
     let kilo = |force: f64| digits(force * 1e-3, 3);
-    let hole = HOLE * a.diameter;
+    let hole = HOLE_DIAMETER * a.diameter;
     if stress > a.strength {
         let (found, most) = (stress * MPA, a.strength * MPA);
         return Err((

@@ -43,7 +43,7 @@ pub struct Arguments {
 
 const TEMPLATE: &str = include_str!("fretting.template");
 
-/// Lines of equal cells up to which a mesh is a matter of minutes.
+/// Lines of equal cells up to which a mesh is a matter of minutes. Tuned.
 const FINE_CELLS: f64 = 400.0;
 
 /// What is expected of the whole test.
@@ -157,7 +157,7 @@ fn written(a: &Arguments, t: &Test, finest: f64) -> Written {
         ("computed", f64::from(t.cycles / t.jump)),
         ("jump", f64::from(t.jump)),
         ("coarse", a.radius * MM / 6.0),
-        ("growth", grid::GROWTH),
+        ("growth", grid::CELL_GROWTH),
         ("young-round", a.materials.young * MPA),
         ("poisson-round", a.materials.poisson),
         ("young-flat", young * MPA),

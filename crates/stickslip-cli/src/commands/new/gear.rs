@@ -41,17 +41,17 @@ pub struct Arguments {
 
 const TEMPLATE: &str = include_str!("gear.template");
 
-/// Pressure angle, height of a tooth above and depth of a gap below the pitch circle, over the module: those of the generator.
+/// Pressure angle of the generator.
 const PRESSURE_ANGLE: f64 = 20.0 * PI / 180.0;
+/// Height of a tooth above the pitch circle, over the module: that of the generator.
 const ADDENDUM: f64 = 1.0;
+/// Depth of a gap below the pitch circle, over the module: that of the generator.
 const DEDENDUM: f64 = 1.25;
 /// Play over the module.
 const BACKLASH: f64 = 0.025;
 /// Stiffness of a pair of teeth of steel per width, about, over Young's modulus `[-]`: 14 N/(mm µm) (ISO 6336-1).
-const STIFFNESS: f64 = 14e9 / 2.1e11;
+const TOOTH_STIFFNESS: f64 = 14e9 / 2.1e11;
 const PITCHES: u32 = 2;
-/// Ratios of the torques are off by less with 80 cells along a flank, where a tip comes in too; the error is that of chains of straight edges.
-const OFF: f64 = 5e-3;
 
 /// Circles of a pair `[m]`.
 struct Pair {
@@ -123,7 +123,7 @@ impl Pair {
 pub fn write(a: &Arguments) -> Result<Written, Failure> {
     let pair = Pair::of(a)?;
     // What the teeth give way under the torque, as a displacement along the line of action.
-    let gives = pair.force(a) / a.width / (STIFFNESS * a.young);
+    let gives = pair.force(a) / a.width / (TOOTH_STIFFNESS * a.young);
     // Until the teeth are pressed as the torque will press them.
     let close = 0.25 * BACKLASH * a.module / pair.pitch[0] + gives / pair.base[0];
     let pitches = f64::from(PITCHES);
@@ -131,7 +131,9 @@ pub fn write(a: &Arguments) -> Result<Written, Failure> {
     let begun = close * pair.pitch[0] / pair.pitch[1];
     let bore = |r: f64| 0.5 * (r - DEDENDUM * a.module) * MM;
     let positions = PITCHES * a.positions;
-    let off = OFF * (80.0 / f64::from(a.cells)).max(1.0).powi(2);
+    // Ratios of the torques are off by less with 80 cells along a flank, where a tip comes in too; the error is that of chains of straight
+    // edges.
+    let off = 5e-3 * (80.0 / f64::from(a.cells)).max(1.0).powi(2);
     let numbers = [
         ("z1", f64::from(a.teeth)),
         ("z2", f64::from(a.wheel)),

@@ -4,8 +4,8 @@ use super::written::number;
 use crate::print;
 use crate::style::WIDTH;
 
-/// Size of a cell over that of its neighbour nearer to the contact.
-pub const GROWTH: f64 = 1.3;
+/// Size of a cell over that of its neighbour nearer to the contact. Tuned.
+pub const CELL_GROWTH: f64 = 1.3;
 
 /// Distances from the contact: cells of the size `finest` out to `fine`, then growing ones, to `last` exactly.
 pub fn outward(finest: f64, fine: f64, last: f64) -> Vec<f64> {
@@ -16,7 +16,7 @@ pub fn outward(finest: f64, fine: f64, last: f64) -> Vec<f64> {
     let mut grown = vec![];
     let (mut at, mut size) = (0.0, finest);
     while at < last - start {
-        size *= GROWTH;
+        size *= CELL_GROWTH;
         at += size;
         grown.push(at);
     }

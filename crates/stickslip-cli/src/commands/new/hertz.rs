@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use stickslip::assess::doctor::WIDEST_CONTACT;
+
 use super::quantity::{self, STRESS};
 use crate::failure::Failure;
 
@@ -68,9 +70,6 @@ pub struct Hertz {
     pub pressure: f64,
 }
 
-/// Contact wider than this part of the radius is not small: both bodies are no half-spaces, and strains are of its size.
-const WIDEST: f64 = 0.2;
-
 impl Hertz {
     /// Contact of a body of this radius under a load, with the compliance of both.
     pub fn of(shape: Shape, radius: f64, load: f64, compliance: f64) -> Self {
@@ -118,7 +117,7 @@ impl Hertz {
                 self.unit()
             )
         };
-        if part > WIDEST {
+        if part > WIDEST_CONTACT {
             return Err(Failure::Arguments(
                 format!(
                     "the contact would be {:.2} of the radius wide to each side: too wide for Hertz's theory, and strains would be large",
@@ -126,7 +125,7 @@ impl Hertz {
                 ),
                 format!(
                     "a larger radius, stiffer bodies, or less load: {}",
-                    less(WIDEST / part)
+                    less(WIDEST_CONTACT / part)
                 ),
             ));
         }

@@ -30,9 +30,6 @@ pub struct Arguments {
 
 const TEMPLATE: &str = include_str!("hertz.template");
 
-/// The flat reaches as far as so many half-widths of a line contact, or as the radius.
-const REACH: f64 = 40.0;
-
 /// The problem and what is expected of it.
 ///
 /// # Errors
@@ -52,7 +49,8 @@ fn written(a: &Arguments, h: &Hertz) -> Written {
     let finest = h.half_width / f64::from(a.cells);
     let fine = 1.25 * h.half_width;
     let (young, nu) = a.materials.flat();
-    let lines = grid::outward(finest, fine, a.radius.max(REACH * h.half_width));
+    // The flat reaches as far as 40 half-widths of a line contact, or as the radius.
+    let lines = grid::outward(finest, fine, a.radius.max(40.0 * h.half_width));
     let half = h.half_width * MM;
     let load = if line { h.load / MM } else { h.load };
     // What the pressure acts on.
@@ -80,7 +78,7 @@ fn written(a: &Arguments, h: &Hertz) -> Written {
         ("area-error", 2.0 * width),
         ("coarse", h.radius * MM / 8.0),
         ("width", fine * MM),
-        ("growth", grid::GROWTH),
+        ("growth", grid::CELL_GROWTH),
         ("young-round", a.materials.young * MPA),
         ("poisson-round", a.materials.poisson),
         ("young-flat", young * MPA),

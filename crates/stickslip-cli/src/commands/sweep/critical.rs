@@ -3,16 +3,14 @@
 use std::path::Path;
 
 use stickslip::io::write_atomically;
+use stickslip::tolerance::NEGLIGIBLE;
 
 use super::done::Row;
 use super::table::line;
 use crate::failure::Failure;
 
-/// Width to which a critical value is known, relative to the step of the axis.
-const WIDTH: f64 = 1e-6;
-
 /// Most runs for one critical value.
-const MOST: usize = 40;
+const MOST_RUNS: usize = 40;
 
 /// A change of sign between two runs.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,8 +52,9 @@ pub fn narrow(
 ) -> Result<[f64; 2], Failure> {
     let [mut a, mut b] = bracket.ends;
     let mut weights = [1.0, 1.0];
-    let width = WIDTH * (b[0] - a[0]).abs();
-    for k in 0..MOST {
+    // A critical value is known to this width, relative to the step of the axis.
+    let width = NEGLIGIBLE * (b[0] - a[0]).abs();
+    for k in 0..MOST_RUNS {
         if (b[0] - a[0]).abs() <= width {
             break;
         }

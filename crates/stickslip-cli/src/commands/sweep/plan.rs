@@ -115,7 +115,7 @@ impl Plan {
             for finding in findings {
                 match found.iter().position(|(known, ..)| *known == finding) {
                     Some(i) => found[i].2 += 1,
-                    None if found.len() < MOST_FINDINGS => found.push((finding, run, 1)),
+                    None if found.len() < LISTED_FINDINGS => found.push((finding, run, 1)),
                     None => more = true,
                 }
             }
@@ -182,7 +182,7 @@ impl Checked {
 }
 
 /// Most findings that are listed: a wrong key shows once, but each wrong value of an axis does.
-const MOST_FINDINGS: usize = 10;
+const LISTED_FINDINGS: usize = 10;
 
 fn product(axes: &[Axis]) -> Result<usize, Failure> {
     let count = axes
@@ -319,6 +319,6 @@ step = [{ name = "press" }]
         assert!(!found[0].1.as_deref().unwrap().contains("in run"));
         // Not a wall of text.
         let range = format!("{young}=-1..-50:50");
-        assert_eq!(findings(&[&range]).len(), MOST_FINDINGS + 1);
+        assert_eq!(findings(&[&range]).len(), LISTED_FINDINGS + 1);
     }
 }

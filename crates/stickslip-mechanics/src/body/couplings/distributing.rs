@@ -158,12 +158,6 @@ struct Mean<'a> {
     components: std::ops::Range<usize>,
 }
 
-/// Part of the largest second moment below which points lie on a line.
-const ON_A_LINE: f64 = 1e-10;
-
-/// Second moment below which they are one, relative to the square of the size of the mesh.
-const ON_A_POINT: f64 = 1e-20;
-
 impl<'a> Mean<'a> {
     fn of(weights: &'a [(usize, f64)], ground: Ground, link: &Link) -> Self {
         let place = |p: usize| ground.place(p);
@@ -178,7 +172,8 @@ impl<'a> Mean<'a> {
                 }
             }
         }
-        let least = ON_A_POINT * geometry::diameter(ground.mesh).powi(2);
+        // Points with a smaller second moment are one.
+        let least = 1e-20 * geometry::diameter(ground.mesh).powi(2);
         if link.freedom == Freedom::Plane {
             let polar = moments[2][2];
             moments = [[0.0; 3], [0.0; 3], [0.0, 0.0, polar]];
@@ -247,7 +242,8 @@ impl<'a> Mean<'a> {
 fn pseudo_inverse(m: &Mat3, least: f64) -> (Mat3, Vec<Vec3>) {
     let rows: Vec<Vec<f64>> = m.iter().map(|r| r.to_vec()).collect();
     let (values, vectors) = symmetric_eigen(&rows);
-    let least = least.max(ON_A_LINE * values[2]);
+    // Points with a smaller part of the largest second moment lie on a line.
+    let least = least.max(1e-10 * values[2]);
     let (mut out, mut turns) = ([[0.0; 3]; 3], Vec::new());
     for (k, value) in values.iter().enumerate().filter(|(_, v)| **v > least) {
         turns.push(std::array::from_fn(|i| vectors[i][k]));

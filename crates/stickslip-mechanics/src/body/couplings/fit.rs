@@ -2,7 +2,7 @@
 
 use super::Couplings;
 use super::all::Hold;
-use super::elimination::{Elimination, FIRM, Held, compliance, resistance};
+use super::elimination::{ELIMINATION_STIFFNESS, Elimination, Held, compliance, resistance};
 use crate::system::{ContactBlock, Links};
 
 /// Chooses the stiffnesses of elimination for a bulk with this diagonal, by dof: those of the cells that a row moves. A spring to ground, or a mass, at a rigid
@@ -55,7 +55,7 @@ pub fn fit(couplings: &mut Couplings, diagonal: &[f64], fixed: &[bool], links: &
             typical / (norm * norm)
         };
         hold[i] = Hold {
-            stiffness: FIRM * stiffness,
+            stiffness: ELIMINATION_STIFFNESS * stiffness,
             idle: cells.is_empty() && carried.is_empty(),
         };
         elimination.held.push(match compliance > 0.0 {
@@ -104,7 +104,7 @@ pub(super) fn fit_beside(couplings: &mut Couplings, blocks: &[ContactBlock]) {
         for (stiffness, held) in stiffness.iter_mut().zip(held) {
             if held.iter().any(|h| beside(h.dof) > 0.0) {
                 let all = compliance(held, |h| h.bulk + beside(h.dof));
-                *stiffness = stiffness.max(FIRM / all);
+                *stiffness = stiffness.max(ELIMINATION_STIFFNESS / all);
             }
         }
     }

@@ -2,14 +2,12 @@
 
 use super::all::Iterate;
 use super::definition::Act;
-use super::elimination::FIRM;
+use super::elimination::ELIMINATION_STIFFNESS;
 use super::{Couplings, CouplingsForce, CouplingsMemory, Row, Tie};
 use crate::body::couplings::fit;
 use crate::math::larger;
 use crate::system::{Assembler, Cause, Force, Stage, StepFailure, Tangent};
-
-/// How far an equation of nothing but prescribed displacements may be off, relative to their size.
-const AGREED: f64 = 1e-9;
+use crate::tolerance::SAME;
 
 impl std::ops::Deref for CouplingsForce<'_> {
     type Target = Couplings;
@@ -123,7 +121,8 @@ impl Force for CouplingsForce<'_> {
                     if hold.idle {
                         let size = row.size(u).max((sum - off).abs());
                         let wrong = if gap { -off } else { off.abs() };
-                        if wrong > AGREED * size {
+                        // An equation of nothing but prescribed displacements may be off by rounding.
+                        if wrong > SAME * size {
                             failure.get_or_insert_with(|| contradiction(&coupling.name, off));
                         }
                         continue;
@@ -142,7 +141,7 @@ impl Force for CouplingsForce<'_> {
                                 gap,
                                 known: now[i],
                                 pull: stiffness * off,
-                                bodies: hold.stiffness / (FIRM * stiffness),
+                                bodies: hold.stiffness / (ELIMINATION_STIFFNESS * stiffness),
                             };
                             match row.eliminate(out) {
                                 true => {

@@ -4,12 +4,7 @@ use super::definition::Act;
 use super::{Couplings, CouplingsMemory};
 use crate::linear::{GmresSettings, gmres};
 use crate::system::{Links, StepFailure};
-
-/// Relative residual to which the accelerations of equations are made to vanish.
-const EXACT: f64 = 1e-12;
-
-/// The same of sums over the equations of dofs without inertia, which these precede.
-const EXACTLY: f64 = 1e-15;
+use crate::tolerance::ROUNDING;
 
 /// Accelerations under forces, both by dof.
 type Accelerate<'a> = &'a mut dyn FnMut(&[f64]) -> Result<Vec<f64>, StepFailure>;
@@ -88,7 +83,8 @@ impl Held {
             forces,
             &mut out,
             GmresSettings {
-                tolerance: EXACTLY,
+                // The same of sums over the equations of dofs without inertia, which those precede, to the last digit.
+                tolerance: 1e-15,
                 max_iterations: forces.len().clamp(10, 200),
                 restart: 60,
             },
@@ -206,7 +202,8 @@ pub fn start_motion(
             &off,
             &mut more,
             GmresSettings {
-                tolerance: EXACT,
+                // The accelerations of equations vanish but for rounding.
+                tolerance: ROUNDING,
                 max_iterations: held.rows.len().clamp(10, 400),
                 restart: 60,
             },

@@ -1,5 +1,6 @@
 use crate::error::Diagnostic;
 use crate::system::Dofs;
+use crate::tolerance::ROUNDING;
 
 /// A weighted sum of the displacements of a few points.
 ///
@@ -11,9 +12,6 @@ pub struct Row {
     /// What each displacement is multiplied by `[-]`.
     pub factors: Vec<f64>,
 }
-
-/// Part of the largest factor below which a factor is rounding.
-const ROUNDED: f64 = 1e-12;
 
 impl Row {
     /// From terms `(point, component, factor)`; those of the same displacement add up, and what is rounding beside the largest is none.
@@ -38,7 +36,7 @@ impl Row {
             largest = largest.max(factor.abs());
         }
         // What rounding leaves of arms that cancel would tie the row to what it does not move.
-        let counts = |f: &f64| f.abs() > ROUNDED * largest;
+        let counts = |f: &f64| f.abs() > ROUNDING * largest;
         factors
             .iter_mut()
             .filter(|f| !counts(f))

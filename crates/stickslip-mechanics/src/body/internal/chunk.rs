@@ -7,10 +7,10 @@ use crate::math::Vec3;
 use crate::mesh::Block;
 
 /// Most cells of a chunk.
-const CELLS: usize = 1024;
+const CHUNK_CELLS: usize = 1024;
 
 /// Most points of a chunk: places, displacements and forces are 16 KiB each.
-pub const POINTS: usize = 512;
+pub const CHUNK_POINTS: usize = 512;
 
 /// Cells that one task computes.
 #[derive(Debug, Clone)]
@@ -68,7 +68,9 @@ impl Chunks {
             let name = self.chunks.len() as u32;
             let first_point = self.points.len();
             let mut count = 0;
-            while count < rest.len().min(CELLS) && self.points.len() - first_point + n <= POINTS {
+            while count < rest.len().min(CHUNK_CELLS)
+                && self.points.len() - first_point + n <= CHUNK_POINTS
+            {
                 for &p in nodes_of(rest[count]) {
                     if local.0[p].0 != name {
                         local.0[p].0 = name;

@@ -20,7 +20,7 @@ use crate::shape::ElementKind;
 /// How far a hexahedron may be from one with parallel faces to be computed as one: displacement of a node over the least
 /// height. Forces differ by a small multiple of it. The rounding of coordinates stays below it up to some hundred cells
 /// along a side.
-const PARALLEL: f64 = 2e-13;
+const PARALLEL_FACES: f64 = 2e-13;
 
 /// The kernels for part `part` of a body, each with its cells in ascending order.
 pub fn of_part(body: &Elastic, part: usize) -> Vec<(Box<dyn Kernel>, Vec<u32>)> {
@@ -141,7 +141,7 @@ fn hexahedron_of<L: Law>(law: L, mean: bool, parallel: bool) -> Box<dyn Kernel> 
     }
 }
 
-/// Whether the faces of a hexahedron are parallel, see [`PARALLEL`].
+/// Whether the faces of a hexahedron are parallel, see [`PARALLEL_FACES`].
 fn is_parallelepiped(points: &[Vec3], block: &Block, cell: u32) -> bool {
     let x: [Vec3; 8] = std::array::from_fn(|a| points[block.connectivity[cell as usize * 8 + a]]);
     let edges = [1, 3, 4].map(|a| sub(x[a], x[0]));
@@ -159,5 +159,5 @@ fn is_parallelepiped(points: &[Vec3], block: &Block, cell: u32) -> bool {
     ];
     expected
         .into_iter()
-        .all(|(a, edge)| norm(sub(sub(x[a], x[0]), edge)) * largest_face <= PARALLEL * volume)
+        .all(|(a, edge)| norm(sub(sub(x[a], x[0]), edge)) * largest_face <= PARALLEL_FACES * volume)
 }

@@ -166,7 +166,7 @@ fn run_chunk(
 ) {
     let [begin, end] = chunk.points;
     let count = end - begin;
-    let mut displacements = [[0.0; 4]; chunk::POINTS];
+    let mut displacements = [[0.0; 4]; chunk::CHUNK_POINTS];
     let points = &chunks.points[begin..end];
     match dofs.dim {
         2 => take::<2>(u, points, &mut displacements),

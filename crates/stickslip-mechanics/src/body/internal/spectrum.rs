@@ -5,14 +5,10 @@ use crate::math::symmetric_eigen;
 use crate::math::vector::dot;
 
 /// Most products with the stiffness.
-const STEPS: usize = 60;
+const MOST_PRODUCTS: usize = 60;
 
 /// Least number of them, so that a few cells much stiffer than the others have shown themselves.
-const LEAST: usize = 20;
-
-/// The residual of the Ritz pair that is good enough, over its value: it lengthens the bound, and a time step goes with
-/// the root of that.
-const ENOUGH: f64 = 0.01;
+const LEAST_PRODUCTS: usize = 20;
 
 /// Largest eigenvalue ω² `[1/s²]` of `M⁻¹ K`, on the safe side, with the mass `[kg]` of every dof. Dofs without mass and
 /// those marked in `fixed` are left out; zero if none remains.
@@ -67,10 +63,12 @@ pub fn largest_eigenvalue(internal: &mut InternalForce, mass: &[f64], fixed: &[b
         let (value, weight) = largest(&diagonal, &beside);
         let residual = beta * weight.abs();
         let steps = diagonal.len();
-        let settled = steps >= LEAST && residual <= ENOUGH * value;
+        // The residual of a Ritz pair is good enough at a hundredth of its value: it lengthens the bound, and a time step goes with the
+        // root of that.
+        let settled = steps >= LEAST_PRODUCTS && residual <= 0.01 * value;
         // The vectors span all that the start has a part in.
         let exhausted = beta <= 1e-12 * value;
-        if settled || exhausted || steps == STEPS || beta.is_nan() {
+        if settled || exhausted || steps == MOST_PRODUCTS || beta.is_nan() {
             return value + residual;
         }
         beside.push(beta);

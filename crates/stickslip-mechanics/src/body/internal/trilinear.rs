@@ -8,9 +8,7 @@ use pulp::Simd;
 
 use super::lane::{Lane, Nodes};
 use super::tensor::Vector;
-
-/// Coordinate of the points of the 2-point rule.
-const POINT: f64 = 0.577_350_269_189_625_8;
+use crate::shape::gauss::ROOT_THIRD;
 
 /// Coefficients of the modes in the order of this file, eight times those of the field, mixed ones times `1/√3` a
 /// coordinate beyond the first.
@@ -31,7 +29,7 @@ pub fn modes<S: Simd>(simd: S, part: usize, nodes: &Nodes<8, 3>, i: usize) -> Mo
     );
     let (ss, sd) = ([s[0] + s[1], s[2] + s[3]], [s[1] - s[0], s[3] - s[2]]);
     let (ds, dd) = ([d[0] + d[1], d[2] + d[3]], [d[1] - d[0], d[3] - d[2]]);
-    let point = Lane::splat(simd, POINT);
+    let point = Lane::splat(simd, ROOT_THIRD);
     let third = Lane::splat(simd, 1.0 / 3.0);
     [
         ss[0] + ss[1],
@@ -49,7 +47,7 @@ pub fn modes<S: Simd>(simd: S, part: usize, nodes: &Nodes<8, 3>, i: usize) -> Mo
 /// the constant mode is zero in equilibrium and not asked for.
 #[inline(always)]
 pub fn store_nodes<S: Simd>(simd: S, part: usize, m: &Modes<S>, nodes: &mut Nodes<8, 3>, i: usize) {
-    let point = Lane::splat(simd, POINT);
+    let point = Lane::splat(simd, ROOT_THIRD);
     let third = Lane::splat(simd, 1.0 / 3.0);
     let (xy, yz, zx, xyz) = (point * m[4], point * m[5], point * m[6], third * m[7]);
     let zero = Lane::splat(simd, 0.0);

@@ -9,12 +9,6 @@ use crate::contact::response::Status;
 use crate::math::{distance, larger, norm};
 use crate::system::{Augmentation, Stage};
 
-/// Part of a violation that an update of the multipliers may leave before the enforcement is tightened.
-const GAIN: f64 = 0.1;
-
-/// Roundings of the largest coordinate below which a violation is none.
-const ROUNDING: f64 = 16.0;
-
 /// Moves the centres of an augmented Lagrangian to the multipliers, and tightens the enforcement where that gains little.
 pub(super) fn update_multipliers(interface: &mut InterfaceForce, stage: &Stage) -> Augmentation {
     let Multipliers::Augmented { error } = interface.laws.enforcement.as_dyn().multipliers() else {
@@ -25,14 +19,16 @@ pub(super) fn update_multipliers(interface: &mut InterfaceForce, stage: &Stage) 
     let largest = interface.cache.geometry.search.at().iter();
     let largest = largest.chain(&interface.reference);
     let largest = largest.map(|&x| norm(x)).fold(0.0, f64::max);
-    if worst <= (error * approach).max(ROUNDING * f64::EPSILON * largest) {
+    // A violation below 16 roundings of the largest coordinate is none.
+    if worst <= (error * approach).max(16.0 * f64::EPSILON * largest) {
         return Augmentation::Done;
     }
     // An update that gains little says that the stiffness is low for what presses on it.
     let attempt = &mut interface.attempt;
     if attempt
         .violation
-        .is_some_and(|before| worst > GAIN * before)
+        // An update of the multipliers may leave this part of a violation before the enforcement is tightened.
+        .is_some_and(|before| worst > 0.1 * before)
     {
         attempt.tightened += 1;
     }

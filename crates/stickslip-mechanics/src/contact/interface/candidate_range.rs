@@ -26,11 +26,8 @@ pub struct CandidateRange {
 /// Positions of an obstacle that are looked at.
 const POSES: usize = 9;
 
-/// Cells beyond the reach that take part all the same.
-const MARGIN: f64 = 2.0;
-
-/// Part of the reach within which contact is expected to stay.
-const INNER: f64 = 0.5;
+/// Cells beyond the reach that take part all the same. Tuned.
+const CELLS_BEYOND_REACH: f64 = 2.0;
 
 /// The points that take part because they are within reach at displacements `u`; marks their nodes and those they may meet among all
 /// points of the mesh. What is marked already, and what has been in contact, takes part in any case.
@@ -47,14 +44,15 @@ pub fn restrict_to_candidates(
     let size = facets.fold(0.0, f64::max);
     let near = facets_near(interface.definition, &x, &distances, range, size);
     let own = interface.points.iter().map(|p| p.size).fold(0.0, f64::max);
-    let limit = range.distance + MARGIN * size.max(own);
+    let limit = range.distance + CELLS_BEYOND_REACH * size.max(own);
     let mut excluded = Vec::with_capacity(distances.len());
     let mut inner = Vec::with_capacity(distances.len());
     for (i, (point, &d)) in interface.points.iter().zip(&distances).enumerate() {
         let known = point.nodes.iter().all(|&n| kept[interface.nodes[n]]);
         let included = d <= limit || known || interface.state.points[i].status != Status::Open;
         excluded.push(!included);
-        inner.push(d <= INNER * limit || known);
+        // Contact is expected to stay within half of the reach.
+        inner.push(d <= 0.5 * limit || known);
         if included {
             mark(interface, i, near.get(i), kept);
         }
@@ -83,7 +81,7 @@ fn facets_near(
     (interface.points.iter().zip(distances))
         .map(|(point, &d)| {
             let mut near = Vec::new();
-            if d <= range.distance + MARGIN * size {
+            if d <= range.distance + CELLS_BEYOND_REACH * size {
                 tree.near(point.position(x), margin, &mut near);
             }
             near

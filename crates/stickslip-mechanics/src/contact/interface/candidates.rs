@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::cache::Geometry;
 use super::definition::{InterfaceDefinition, Primary};
-use super::evaluation::CHUNK;
+use super::evaluation::EVALUATED_PER_TASK;
 use super::search::Search;
 use crate::contact::bounds::Bounds;
 use crate::contact::facet_point::FacetPoint;
@@ -13,8 +13,9 @@ use crate::contact::pairing::{Choice, Previous};
 use crate::contact::surface::ContactPoint;
 use crate::math::{Vec3, dot, mat_vec};
 
-/// Cosine of the angle up to which a surface looks where it looked in the reference configuration, for finding facets that look back.
-const UNTURNED: f64 = 0.95;
+/// Cosine of the angle up to which a surface looks where it looked in the reference configuration, for finding facets that look back. It is
+/// an angle of 18 degrees. Tuned.
+const UNTURNED_COSINE: f64 = 0.95;
 
 /// Searches anew when the points have moved so far that a nearer facet might be missing from the candidates.
 pub(in crate::contact) fn update_candidates(
@@ -46,7 +47,7 @@ fn facing(definition: &InterfaceDefinition, x: &[Vec3]) -> Vec<Vec3> {
     };
     let normals: Vec<Vec3> = definition.points.iter().zip(&around).map(turned).collect();
     let mut pairs = normals.iter().zip(&definition.points);
-    match pairs.any(|(n, p)| dot(*n, p.normal) < UNTURNED) {
+    match pairs.any(|(n, p)| dot(*n, p.normal) < UNTURNED_COSINE) {
         true => normals,
         false => Vec::new(),
     }
@@ -54,7 +55,10 @@ fn facing(definition: &InterfaceDefinition, x: &[Vec3]) -> Vec<Vec3> {
 
 /// Bounds of the facets.
 pub(super) fn enclose(definition: &InterfaceDefinition, x: &[Vec3], out: &mut Vec<Bounds>) {
-    let around = definition.facets().par_iter().with_min_len(CHUNK);
+    let around = definition
+        .facets()
+        .par_iter()
+        .with_min_len(EVALUATED_PER_TASK);
     around.map(|f| Bounds::around(f, x)).collect_into_vec(out);
 }
 

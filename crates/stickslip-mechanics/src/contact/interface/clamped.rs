@@ -3,12 +3,6 @@
 use super::definition::InterfaceDefinition;
 use crate::math::{Vec3, dot, scale};
 
-/// Part of what lies opposite that has to be free to move for a clamped point to press on it.
-const FREE: f64 = 0.5;
-
-/// Part of a motion along the normal that a node which is not clamped has left.
-const LEFT: f64 = 0.5;
-
 /// Whether supports prescribe how all nodes of a point move along `normal`, and most of what lies opposite: then its gap is given, and a multiplier would act on the
 /// little that is left. Where pressure follows from the gap it is known all the same. `sides`: nodes and their weights, positive on the secondary.
 pub(super) fn clamped_pair(
@@ -27,7 +21,8 @@ pub(super) fn clamped_pair(
             return axes[..definition.dofs.dim] == [true; 3][..definition.dofs.dim];
         }
         let free: Vec3 = std::array::from_fn(|c| if axes[c] { 0.0 } else { normal[c] });
-        axes.contains(&true) && dot(free, free).sqrt() <= LEFT
+        // A node that is not clamped has more than half of a motion along the normal left.
+        axes.contains(&true) && dot(free, free).sqrt() <= 0.5
     };
     let (mut own, mut sums) = (true, [0.0; 2]);
     for &(node, w) in sides {
@@ -39,5 +34,6 @@ pub(super) fn clamped_pair(
             return false;
         }
     }
-    sums[0] <= FREE * (sums[0] + sums[1])
+    // Half of what lies opposite has to be free to move for a clamped point to press on it.
+    sums[0] <= 0.5 * (sums[0] + sums[1])
 }

@@ -22,9 +22,7 @@ use crate::contact::law::friction::LawState;
 use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, scale, sub};
 use crate::system::Stage;
-
-/// Part of the largest force of a point by which multipliers may differ from what the laws answer, and these decide.
-const SAME: f64 = 1e-9;
+use crate::tolerance::SAME;
 
 /// What the committed history of a point becomes, and what happened on the way, per area.
 struct Passed {
@@ -141,6 +139,7 @@ fn trust_multipliers(points: &mut [Evaluation]) {
     for e in points {
         let open = e.response.status == Status::Open;
         let off = e.saddle.map_or(0.0, |(rest, _)| size(&rest) * e.area);
+        // Where multipliers differ by more from what the laws answer, the laws decide.
         if !open && off > SAME * largest {
             e.response.traction = e.kept.multiplier;
         }

@@ -12,11 +12,11 @@ use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, dot, norm, scale, sub};
 use crate::system::Stage;
 
-/// Part of the increment before its end over which the velocity of an obstacle is taken.
-const MOMENT: f64 = 1e-4;
+/// Part of the increment before its end over which the velocity of an obstacle is taken. Tuned.
+const VELOCITY_STEP: f64 = 1e-4;
 
-/// Slip that moves a point by less than this part of what its cell yields under the shear has no direction to speak of.
-const GIVEN: f64 = 1e-2;
+/// Slip that moves a point by less than this part of what its cell yields under the shear has no direction to speak of. Tuned.
+const NO_SLIP_DIRECTION: f64 = 1e-2;
 
 /// Judges the last evaluation at the end of an increment, while the history is still that of its start. A point that slips has to carry its
 /// limit, in the tangent plane and not along its slip, with the kinematics of the paper against it; one that sticks carries no more than its limit.
@@ -80,8 +80,8 @@ pub(super) fn friction_error(interface: &InterfaceForce, stage: &Stage) -> Frict
                 false => [0.0; 3],
             };
             let slid = add(moved, spring);
-            let unsure =
-                apart + (size + norm(before.shear)) * GIVEN / interface.points[i].stiffness;
+            let unsure = apart
+                + (size + norm(before.shear)) * NO_SLIP_DIRECTION / interface.points[i].stiffness;
             if norm(slid) > unsure {
                 let angle = (-dot(shear, slid) / (size * norm(slid)))
                     .clamp(-1.0, 1.0)
@@ -97,7 +97,7 @@ pub(super) fn friction_error(interface: &InterfaceForce, stage: &Stage) -> Frict
 
 /// How far a point gives way under a unit of shear before it slips, and where slip has no direction to speak of `[m/Pa]`.
 fn compliance(interface: &InterfaceForce, i: usize, e: &Evaluation) -> f64 {
-    1.0 / e.stiffness[1] + GIVEN / interface.points[i].stiffness
+    1.0 / e.stiffness[1] + NO_SLIP_DIRECTION / interface.points[i].stiffness
 }
 
 /// How far the point has moved over the material of the primary beneath it, along the surface, belt included, and how uncertain that is. In dynamics
@@ -152,10 +152,10 @@ fn relative_slip(
     let mut unsure = dot(apart, e.frames.normal).abs();
     if let Primary::Rigid(_, motion) = &interface.primary {
         let t = stage.at.t;
-        let [now, then] = [t, t - MOMENT * stage.dt].map(|t| motion.pose(t));
+        let [now, then] = [t, t - VELOCITY_STEP * stage.dt].map(|t| motion.pose(t));
         let x = interface.points[i].position(&interface.cache.geometry.x);
         let surface = sub(x, then.outward(now.inward(x)));
-        moved = add_scaled(moved, -1.0 / MOMENT, surface);
+        moved = add_scaled(moved, -1.0 / VELOCITY_STEP, surface);
         // The point has seen other velocities on its way.
         unsure = now.turned_since(&motion.pose(stage.from.t)).abs() * norm(own);
     }

@@ -16,7 +16,7 @@ use crate::math::{Vec3, add_scaled, dot};
 use crate::system::{Assembler, Dofs, Tangent};
 
 /// Faces or points handled by one task.
-const CHUNK: usize = 8;
+const ITEMS_PER_TASK: usize = 8;
 
 /// The second derivatives over one face, or of one point.
 #[derive(Debug, Default)]
@@ -241,7 +241,7 @@ fn curvature_of_points(
         let dofs = evaluations.batch(i).dofs(&evaluations.points[i]).to_vec();
         Some(Block { dofs, hessian })
     };
-    let chunks = points.par_chunks(CHUNK);
+    let chunks = points.par_chunks(ITEMS_PER_TASK);
     chunks
         .map(|points| points.iter().filter_map(block).collect())
         .collect()
@@ -261,9 +261,9 @@ fn curvature_of_faces(
         x: &cache.geometry.x,
         facets,
     };
-    let faces = mortar.faces.par_chunks(CHUNK);
+    let faces = mortar.faces.par_chunks(ITEMS_PER_TASK);
     faces
-        .zip(cache.geometry.integrals.par_chunks(CHUNK))
+        .zip(cache.geometry.integrals.par_chunks(ITEMS_PER_TASK))
         .map(|(faces, integrals)| {
             let mut room = Vec::new();
             let block = |(face, integral): (&Face, &FaceIntegral)| {

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::definition::Primary;
-use super::evaluation::{Batch, CHUNK, Evaluation, Evaluations};
+use super::evaluation::{Batch, EVALUATED_PER_TASK, Evaluation, Evaluations};
 use super::on_facet::evaluate_facet;
 use super::on_mortar::evaluate_mortar;
 use super::on_obstacle::evaluate_rigid;
@@ -33,14 +33,14 @@ pub(super) fn evaluate_points(
     anchors: &mut [Option<Anchor>],
 ) {
     out.points
-        .par_chunks_mut(CHUNK)
+        .par_chunks_mut(EVALUATED_PER_TASK)
         .zip(out.batches.par_iter_mut())
-        .zip(anchors.par_chunks_mut(CHUNK))
+        .zip(anchors.par_chunks_mut(EVALUATED_PER_TASK))
         .enumerate()
         .for_each(|(chunk, ((points, batch), anchors))| {
             batch.clear();
             for (k, (e, anchor)) in points.iter_mut().zip(anchors).enumerate() {
-                *e = evaluate(chunk * CHUNK + k, scene, anchor, batch);
+                *e = evaluate(chunk * EVALUATED_PER_TASK + k, scene, anchor, batch);
             }
         });
 }

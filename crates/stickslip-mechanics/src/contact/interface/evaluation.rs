@@ -7,7 +7,7 @@ use crate::math::{Vec3, add_scaled, dot, scale};
 use crate::system::Tangent;
 
 /// Contact points evaluated by one task. Fixed, so that no number depends on how many threads there are.
-pub(in crate::contact) const CHUNK: usize = 16;
+pub(in crate::contact) const EVALUATED_PER_TASK: usize = 16;
 
 /// An evaluation of all points.
 #[derive(Debug, Clone, Default)]
@@ -36,7 +36,7 @@ impl Evaluations {
     /// Evaluations of which nothing else is known.
     pub fn of_traces(traces: Vec<Trace>) -> Self {
         let mut batches = Vec::new();
-        batches.resize_with(traces.len().div_ceil(CHUNK), Batch::default);
+        batches.resize_with(traces.len().div_ceil(EVALUATED_PER_TASK), Batch::default);
         let traces = traces.into_iter().enumerate();
         let points = traces.map(|(i, trace)| {
             let mut e = Evaluation {
@@ -45,7 +45,7 @@ impl Evaluations {
             };
             e.response.d_gap[0][0] = trace.slope;
             e.viscosity = trace.viscosity;
-            let batch: &mut Batch = &mut batches[i / CHUNK];
+            let batch: &mut Batch = &mut batches[i / EVALUATED_PER_TASK];
             e.slots.sides = batch.sides.len();
             e.slots.nodes = trace.sides.len();
             batch.sides.extend(trace.sides);
@@ -61,7 +61,7 @@ impl Evaluations {
     pub fn pull(&mut self, i: usize, traction: [f64; 3]) {
         let e = &mut self.points[i];
         e.response.traction = traction;
-        let batch = &mut self.batches[i / CHUNK];
+        let batch = &mut self.batches[i / EVALUATED_PER_TASK];
         if let (Some(force), Some(rows)) = (e.slots.force, e.slots.rows) {
             let rows = &batch.rows[rows..rows + 3 * e.slots.n];
             for (k, f) in batch.force[force..force + e.slots.n].iter_mut().enumerate() {
@@ -73,7 +73,7 @@ impl Evaluations {
 
     /// The numbers of a point.
     pub fn batch(&self, i: usize) -> &Batch {
-        &self.batches[i / CHUNK]
+        &self.batches[i / EVALUATED_PER_TASK]
     }
 }
 

@@ -16,7 +16,7 @@ use crate::math::{Mat3, Vec3, identity};
 use crate::system::Stage;
 
 /// Faces integrated by one task.
-const CHUNK: usize = 8;
+const FACES_PER_TASK: usize = 8;
 
 /// Integrates over all faces at the coordinates of the evaluation, along normals that have turned as the surface has, at the last accepted state where it
 /// `holds_turns`; at that state where [`holds_integrals`] says so; over the reference configuration, once, where sliding is small.
@@ -89,10 +89,10 @@ pub(super) fn integrate_faces(interface: InterfaceInput, geometry: &mut Geometry
     merged.nodes.resize(mortar.faces.len(), Merged::default());
     mortar
         .faces
-        .par_chunks(CHUNK)
-        .zip(integrals.par_chunks_mut(CHUNK))
-        .zip(faces.opposite.par_chunks(CHUNK))
-        .zip(merged.nodes.par_chunks(CHUNK))
+        .par_chunks(FACES_PER_TASK)
+        .zip(integrals.par_chunks_mut(FACES_PER_TASK))
+        .zip(faces.opposite.par_chunks(FACES_PER_TASK))
+        .zip(merged.nodes.par_chunks(FACES_PER_TASK))
         .for_each(|(((faces, integrals), opposite), merged)| {
             let mut scratch = Scratch::default();
             let all = faces.iter().zip(integrals).zip(opposite).zip(merged);

@@ -6,9 +6,6 @@ use super::surrogate::{gain, surrogate};
 use crate::contact::enforcement::{condensed_slope, inverse_of_rows, residual};
 use crate::math::{Mat3, dot};
 
-/// Roundings of the largest coordinate that a gap may be off.
-const ROUNDING: f64 = 4.0;
-
 /// Residual and tangent from stencil and response, but for how gap and slips curve: the weights of their second derivatives, if a tangent is wanted and
 /// something is carried.
 pub(super) fn finish(scene: &Scene, e: &mut Evaluation, batch: &mut Batch) -> Option<[f64; 3]> {
@@ -73,7 +70,8 @@ fn add_force(e: &mut Evaluation, traction: [f64; 3], batch: &mut Batch) {
     }));
     let slopes = e.response.d_gap.iter().flatten();
     let slope = slopes.fold(0.0_f64, |m, d| m.max(d.abs()));
-    e.rounding = ROUNDING * f64::EPSILON * stencil.coordinate_scale * slope * area;
+    // A gap may be off by four roundings of the largest coordinate.
+    e.rounding = 4.0 * f64::EPSILON * stencil.coordinate_scale * slope * area;
 }
 
 /// Gradients, and the change of the tractions along them: `-d · B (- the skew)`, shape `(3, n)`.

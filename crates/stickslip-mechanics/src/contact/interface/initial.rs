@@ -56,7 +56,7 @@ impl Within {
 /// How near a point has to be to be moved or to count as closed, if nothing else is said.
 pub const CLOSE: Within = Within::Fraction(0.1);
 
-/// Gap relative to the cell beneath up to which a point counts as touching at the very start.
+/// Gap relative to the cell beneath up to which a point counts as touching at the very start. Tuned.
 pub(in crate::contact) const TOUCHING: f64 = 1e-6;
 
 /// How near tied surfaces have to be to be glued, if nothing else is said.

@@ -13,10 +13,7 @@ use crate::system::{Force, Stage};
 
 /// Stiffness that stands for a constraint, relative to that of the bodies beside it: what it gives is a part of about its inverse of what a cell gives, and rounding
 /// of displacements leaves as many digits more than it as are wanted of frequencies.
-const FIRM: f64 = 1e5;
-
-/// A pressure that strains the cell beneath a point by no more than this is rounding: some hundred times the relative rounding of a strain of one.
-const ROUNDING_STRAIN: f64 = 1e-13;
+const CONSTRAINT_STIFFNESS: f64 = 1e5;
 
 /// A contact point that carries something, linearised: small displacements and velocities `x`, `v` of its dofs meet the force `-Rᵀ (K R x + C R v)`, with the
 /// gradients `R` of the gap and of the two components of slip.
@@ -87,7 +84,9 @@ fn line(
     };
     // Surfaces that have just separated are open: rounding of the gap or of the pressure would count them as closed.
     let (before, point) = (interface.state.points[i].status, &interface.points[i]);
-    let rounding = ROUNDING_STRAIN * point.stiffness * point.size;
+    // A pressure that strains the cell beneath a point by no more than this is rounding: some hundred times the relative rounding of a
+    // strain of one.
+    let rounding = 1e-13 * point.stiffness * point.size;
     let open = before == Status::Open || e.response.traction[0] <= rounding;
     let parted = interface.state.acting && !interface.laws.tied && open;
     if status == Status::Open || parted {
@@ -159,7 +158,7 @@ fn firmness(interface: InterfaceInput, i: usize, e: &Evaluation) -> [f64; 2] {
     );
     let own = interface.points[i].stiffness;
     let more = |needed: bool, stiffness: f64| match needed && exact && stiffness.is_finite() {
-        true => (FIRM * own / stiffness).max(1.0),
+        true => (CONSTRAINT_STIFFNESS * own / stiffness).max(1.0),
         false => 1.0,
     };
     [

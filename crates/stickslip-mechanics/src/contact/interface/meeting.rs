@@ -10,6 +10,7 @@ use super::view::ContactView;
 use crate::contact::kinematics::mean_gap;
 use crate::contact::surface::{Facet, triangulate};
 use crate::math::{Vec3, add, add_scaled, cross, dot, norm, sub};
+use crate::tolerance::NEGLIGIBLE;
 
 /// Where two surfaces meet along a motion.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -30,17 +31,12 @@ impl TimeOfImpact {
     }
 }
 
-/// Part of the gap at which a point that just touches is given a stiffness.
-const CLOSE: f64 = 0.5;
+/// Part of the gap at which a point that just touches is given a stiffness. Tuned.
+const IMPACT_GAP: f64 = 0.5;
 
-/// Velocity of approach, relative to the largest velocity, below which surfaces slide past each other.
-const SLIDING: f64 = 1e-9;
-
-/// How far beyond its edges a ray still meets a facet, relative to the facet.
-const EDGE: f64 = 1e-6;
-
-/// Part of the margin of the search that is gone at once where no facet is near.
-const STRIDE: f64 = 0.5;
+/// Velocity of approach, relative to the largest velocity, below which surfaces slide past each other. What is left is rounding of the
+/// velocities.
+const NO_APPROACH: f64 = 1e-9;
 
 /// How much of the motion `w` (by dof, added to displacements `u`) can be made at time `t` until points of the secondary touch the
 /// primary.
@@ -84,12 +80,12 @@ fn meeting_obstacle(
         };
         let v = point.position(speeds);
         let closing = -dot(v, pose.turn(foot.normal));
-        if closing <= SLIDING * largest {
+        if closing <= NO_APPROACH * largest {
             continue;
         }
         let gap = mean_gap(shape.as_dyn(), &pose, point, x).unwrap_or(foot.gap);
         let gap = gap - interface.offset(i, t);
-        if gap <= CLOSE * TOUCHING * point.size {
+        if gap <= IMPACT_GAP * TOUCHING * point.size {
             meeting
                 .touching
                 .push((interface.nodes[point.nodes[0]], None));
@@ -133,7 +129,7 @@ fn meeting_of_boxes(
     let (a, b) = (range(x, &mut ours()), range(x, &mut theirs()));
     let (va, vb) = (range(speeds, &mut ours()), range(speeds, &mut theirs()));
     let smallest = interface.points.iter().map(|p| p.size);
-    let slack = CLOSE * TOUCHING * smallest.fold(f64::INFINITY, f64::min);
+    let slack = IMPACT_GAP * TOUCHING * smallest.fold(f64::INFINITY, f64::min);
     // Surfaces that have entered each other by part of a cell have not passed each other.
     let entered = interface.points.iter().map(|p| p.size).fold(0.0, f64::max);
     // What counts as no gap.
@@ -146,10 +142,10 @@ fn meeting_of_boxes(
             let fastest = v_lower[1][c] - v_upper[0][c];
             let slowest = v_lower[0][c] - v_upper[1][c];
             if apart > slack {
-                if fastest <= SLIDING * largest && apart <= entered {
+                if fastest <= NO_APPROACH * largest && apart <= entered {
                     continue;
                 }
-                if fastest <= SLIDING * largest {
+                if fastest <= NO_APPROACH * largest {
                     return None;
                 }
                 entry = entry.max(apart / fastest);
@@ -174,7 +170,8 @@ fn meeting_facets(
     let feet = closest_of_all(interface.definition, x, search);
     let facets = interface.facets();
     let margin = search.margin;
-    let stride = STRIDE * margin / (2.0 * largest);
+    // Where no facet is near, half of the margin of the search is gone at once.
+    let stride = 0.5 * margin / (2.0 * largest);
     for (i, point) in interface.points.iter().enumerate() {
         let (position, v) = (point.position(x), point.position(speeds));
         let offset = interface.offset(i, t);
@@ -186,8 +183,8 @@ fn meeting_facets(
             (gap, -dot(sub(v, carried), foot.normal), facets[f].nodes[0])
         });
         if let Some((gap, closing, node)) = foot
-            && gap <= CLOSE * TOUCHING * point.size
-            && closing > SLIDING * largest
+            && gap <= IMPACT_GAP * TOUCHING * point.size
+            && closing > NO_APPROACH * largest
         {
             let secondary = interface.nodes[point.nodes[0]];
             let primary = interface.nodes[node];
@@ -201,13 +198,13 @@ fn meeting_facets(
                 &facets[f], x, speeds, position, v, offset, largest,
             ));
         }
-        if way * largest > CLOSE * TOUCHING * point.size {
+        if way * largest > IMPACT_GAP * TOUCHING * point.size {
             meeting.way = meeting.way.min(way);
         }
         // What is left to facets that are curved.
         if let Some((gap, closing, _)) = foot
-            && gap > CLOSE * TOUCHING * point.size
-            && closing > SLIDING * largest
+            && gap > IMPACT_GAP * TOUCHING * point.size
+            && closing > NO_APPROACH * largest
             && gap <= 0.1 * margin
         {
             meeting.way = meeting.way.min(gap / closing);
@@ -245,7 +242,7 @@ fn along_ray(
         let normal = facet_normal(&corners);
         let size = norm(normal);
         let closing = -dot(v, normal) / size;
-        if closing.is_nan() || closing <= SLIDING * largest {
+        if closing.is_nan() || closing <= NO_APPROACH * largest {
             continue;
         }
         let s = (dot(sub(position, corners[0]), normal) / size - offset) / closing;
@@ -257,12 +254,13 @@ fn along_ray(
             [a, b] => {
                 let along = sub(b, a);
                 let at = dot(sub(hit, a), along) / dot(along, along);
-                (-EDGE..=1.0 + EDGE).contains(&at)
+                // A ray still meets a facet this far beyond its edges.
+                (-NEGLIGIBLE..=1.0 + NEGLIGIBLE).contains(&at)
             }
             [a, b, c] => {
                 let part = |p: Vec3, q: Vec3| dot(cross(sub(p, hit), sub(q, hit)), normal);
                 let least = part(a, b).min(part(b, c)).min(part(c, a));
-                least >= -EDGE * size * size
+                least >= -NEGLIGIBLE * size * size
             }
             _ => false,
         };

@@ -80,5 +80,6 @@ pub use parts::{Interface, InterfaceForce};
 pub use pass::gaps_at;
 pub use springs::{pull_ties, use_springs};
 pub use stiffness::mass_per_area;
+pub use symptoms::LARGE_SLIP;
 pub use user_laws::{with_friction_law, with_user_laws};
 pub use view::ContactView;

@@ -10,9 +10,7 @@ use super::scene::{Met, Scene};
 use super::sides::faces_around;
 use crate::contact::kinematics::{Carried, MeanPoint, gather, rotation_of};
 use crate::math::{Mat3, identity, norm};
-
-/// Part of the area of a point that has to have something opposite for it to take part.
-const LEAST_AREA: f64 = 1e-6;
+use crate::tolerance::NEGLIGIBLE;
 
 pub(super) fn evaluate_mortar(i: usize, scene: &Scene, batch: &mut Batch) -> Evaluation {
     let interface = scene.interface;
@@ -31,7 +29,8 @@ pub(super) fn evaluate_mortar(i: usize, scene: &Scene, batch: &mut Batch) -> Eva
         &mut batch.sides,
         &mut batch.sums,
     );
-    let covered = sums.area > LEAST_AREA * point.area;
+    // A point takes part if more than this part of its area has something opposite.
+    let covered = sums.area > NEGLIGIBLE * point.area;
     let Some(length) = covered.then(|| sums.length()).flatten() else {
         batch.sides.truncate(sides);
         return Evaluation::open(f64::INFINITY);

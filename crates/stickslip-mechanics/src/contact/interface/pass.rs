@@ -4,7 +4,7 @@ use super::belt::{belt_path, belt_velocity, poses};
 use super::cache::{Cache, Geometry};
 use super::candidates::enclose;
 use super::evaluate::evaluate_points;
-use super::evaluation::{Batch, CHUNK, Evaluation, Evaluations};
+use super::evaluation::{Batch, EVALUATED_PER_TASK, Evaluation, Evaluations};
 use super::faces::integrate_faces;
 use super::input::InterfaceInput;
 use super::parts::InterfaceForce;
@@ -33,7 +33,7 @@ pub(super) fn evaluate_all<'a>(
     trial.points.resize(count, Evaluation::default());
     trial
         .batches
-        .resize_with(count.div_ceil(CHUNK), Batch::default);
+        .resize_with(count.div_ceil(EVALUATED_PER_TASK), Batch::default);
     let poses = poses(&interface, stage);
     let scene = Scene {
         interface,

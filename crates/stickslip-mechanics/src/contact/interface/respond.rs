@@ -12,12 +12,7 @@ use crate::contact::kinematics::{Moving, Stencil, carried_over, rate_slip};
 use crate::contact::law::friction::FrictionPoint;
 use crate::contact::response::{Kept, LawInput, Sliding, Status, Stiffnesses, Worn, respond};
 use crate::math::{Vec3, add_scaled, dot, norm, scale};
-
-/// By how much the first trial traction of an attempt may exceed the limit and count as stick.
-const FIRST_SLACK: f64 = 1e-2;
-
-/// Part of the velocity of a surface that rounding may leave along it.
-const AT_REST: f64 = 1e-12;
+use crate::tolerance::ROUNDING;
 
 /// Laws at the stencil of the batch.
 pub(super) fn respond(met: Met, scene: &Scene, batch: &mut Batch) -> Evaluation {
@@ -44,7 +39,8 @@ pub(super) fn respond(met: Met, scene: &Scene, batch: &mut Batch) -> Evaluation 
             sprung: interface.state.springs,
             steady: false,
             slack: match scene.wants.tangent && interface.attempt.flips[i].last[0].is_none() {
-                true => FIRST_SLACK,
+                // The first trial traction of an attempt may exceed the limit by this and count as stick.
+                true => 1e-2,
                 false => 0.0,
             },
         },
@@ -231,7 +227,7 @@ fn use_steady_velocity(i: usize, scene: &Scene, batch: &mut Batch, at: &mut LawI
     let belt = stencil.frame.map(|e| dot(e, way));
     let across = dot(stencil.normal, way);
     // What moves along its normal alone does not slide.
-    if norm(add_scaled(way, -across, stencil.normal)) <= AT_REST * norm(way) {
+    if norm(add_scaled(way, -across, stencil.normal)) <= ROUNDING * norm(way) {
         return;
     }
     at.slip.path = at.slip.path.or(Some(at.slip.seen));

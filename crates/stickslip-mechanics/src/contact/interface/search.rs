@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::evaluation::CHUNK;
+use super::evaluation::EVALUATED_PER_TASK;
 use crate::contact::mortar::Face;
 use crate::contact::search::Tree;
 use crate::contact::surface::{ContactPoint, Facet};
@@ -30,13 +30,6 @@ pub(in crate::contact) struct FaceSearch {
     at: Vec<Vec3>,
 }
 
-/// Part of its margin by which points may move until facets are looked for again, of points and of faces.
-const MOVED: f64 = 0.25;
-const FACE_MOVED: f64 = 0.1;
-
-/// Part of the size of a facet by which it may be beyond the ball around a face.
-const BEYOND: f64 = 0.5;
-
 /// Faces looked at by one task.
 const FACES: usize = 8;
 
@@ -45,7 +38,8 @@ impl Search {
     pub fn stale(&self, x: &[Vec3]) -> bool {
         let moved = (self.at.iter().zip(x)).map(|(&a, &b)| distance(a, b));
         let moved = moved.fold(0.0, f64::max);
-        self.at.len() != x.len() || moved > MOVED * self.margin
+        // Facets are looked for again once points have moved by this part of the margin.
+        self.at.len() != x.len() || moved > 0.25 * self.margin
     }
 
     /// Coordinates at the last search; empty before there was one.
@@ -74,8 +68,8 @@ impl Search {
         self.candidates.resize(points.len(), Vec::new());
         let margin = self.margin;
         points
-            .par_chunks(CHUNK)
-            .zip(self.candidates.par_chunks_mut(CHUNK))
+            .par_chunks(EVALUATED_PER_TASK)
+            .zip(self.candidates.par_chunks_mut(EVALUATED_PER_TASK))
             .for_each(|(points, candidates)| {
                 for (point, candidates) in points.iter().zip(candidates) {
                     tree.near(point.position(x), margin, candidates);
@@ -103,7 +97,8 @@ impl FaceSearch {
         let moved = (self.at.iter().zip(x))
             .map(|(&a, &b)| distance(a, b))
             .fold(0.0, f64::max);
-        if self.at.len() == x.len() && moved <= FACE_MOVED * margin {
+        // Facets are looked for again once faces have moved by this part of the margin.
+        if self.at.len() == x.len() && moved <= 0.1 * margin {
             return;
         }
         let tree = Tree::build(facets.iter().map(|f| f.nodes.iter().map(|&n| x[n])));
@@ -117,7 +112,8 @@ impl FaceSearch {
                         (face.nodes.iter()).fold([0.0; 3], |c, &n| add_scaled(c, weight, x[n]));
                     let radius = face.nodes.iter().map(|&n| distance(centre, x[n]));
                     let radius = radius.fold(0.0, f64::max);
-                    tree.near(centre, radius + BEYOND * margin, opposite);
+                    // A facet may be beyond the ball around a face by half of its size.
+                    tree.near(centre, radius + 0.5 * margin, opposite);
                 }
             });
         self.at.clear();

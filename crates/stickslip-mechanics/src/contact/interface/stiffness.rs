@@ -7,12 +7,9 @@ use super::view::ContactView;
 use crate::contact::enforcement::{Multipliers, Stiffness};
 use crate::contact::surface::ContactPoint;
 
-/// Stiffness relative to that of the bodies up to which an augmented Lagrangian is tightened.
-const STIFFEST: f64 = 1e6;
-
 /// Part of the mass over the square of the increment that counts as stiffness: a tenth of what the trapezoidal rule makes of it. More would turn the
 /// rounding of gaps into pressure where supports hold a body already.
-const INERTIA: f64 = 0.4;
+const INERTIAL_STIFFNESS: f64 = 0.4;
 
 /// Mass per area behind each point `[kg/m²]`, from the masses of the points of the mesh `[kg]`; zero where there is none.
 pub fn mass_per_area(interface: &InterfaceDefinition, by_point: &[f64]) -> Vec<f64> {
@@ -29,7 +26,7 @@ pub fn mass_per_area(interface: &InterfaceDefinition, by_point: &[f64]) -> Vec<f
 /// How stiffly the bodies resist at a point `[Pa/m]`: the cell beneath, and over an increment of length `moving` its mass.
 pub(super) fn own_stiffness(interface: InterfaceInput, i: usize, moving: Option<f64>) -> f64 {
     let inertia = interface.conditions.inertia.get(i).copied().unwrap_or(0.0);
-    let inertia = moving.map_or(0.0, |dt| INERTIA * inertia / (dt * dt));
+    let inertia = moving.map_or(0.0, |dt| INERTIAL_STIFFNESS * inertia / (dt * dt));
     interface.points[i].stiffness + inertia
 }
 
@@ -64,5 +61,6 @@ pub(in crate::contact) fn spring(
     }
     // Never softer than asked for, and never so stiff that the bodies drown in rounding.
     let raised = start * 10_f64.powi(attempt.tightened as i32);
-    raised.min(STIFFEST * own).max(start)
+    // An augmented Lagrangian is tightened up to this stiffness relative to that of the bodies.
+    raised.min(1e6 * own).max(start)
 }

@@ -10,16 +10,17 @@ use crate::math::{add, distance, norm};
 use crate::system::{Culprit, Evidence, Tally};
 
 /// Most culprits of one interface.
-const MOST: usize = 10;
+const MOST_CULPRITS: usize = 10;
 
-/// Slip over an increment, relative to the facet, from which a point is a culprit although it keeps its status.
-const FAR: f64 = 0.5;
+/// Slip over an increment, relative to the facet, that is too large: such a point is a culprit although it keeps its status. Tuned; it
+/// decides what is said, and no result.
+pub const LARGE_SLIP: f64 = 0.5;
 
 /// Halvings by which a kink of the normal law is looked for.
-const HALVINGS: usize = 40;
+const KINK_HALVINGS: usize = 40;
 
-/// Ratio of slopes that counts as a kink.
-const KINK: f64 = 4.0;
+/// Ratio of slopes that counts as a kink. Tuned; it decides what is said, and no result.
+const SLOPE_RATIO_OF_KINK: f64 = 4.0;
 
 /// An interface in the present attempt.
 #[derive(Clone, Copy)]
@@ -129,8 +130,8 @@ pub(super) fn culprits(attempted: LastAttempt) -> Vec<Culprit> {
     let mut all: Vec<Evidence> = (0..attempted.cache.last.points.len())
         .map(|i| evidence_of(attempted, i))
         .filter(|e| {
-            let slid = e.facet > 0.0 && e.slip > FAR * e.facet;
-            e.flips > 0 || e.left > 0 || e.kink > KINK || slid
+            let slid = e.facet > 0.0 && e.slip > LARGE_SLIP * e.facet;
+            e.flips > 0 || e.left > 0 || e.kink > SLOPE_RATIO_OF_KINK || slid
         })
         .collect();
     // The sort is stable: points of equal guilt keep their order.
@@ -139,7 +140,7 @@ pub(super) fn culprits(attempted: LastAttempt) -> Vec<Culprit> {
         let flips = b.flips.cmp(&a.flips);
         flips.then_with(|| slid(b).total_cmp(&slid(a)))
     });
-    all.truncate(MOST);
+    all.truncate(MOST_CULPRITS);
     all.into_iter().map(said).collect()
 }
 
@@ -158,13 +159,13 @@ fn said(e: Evidence) -> Culprit {
     if e.left > 0 {
         what.push(format!("left the edge of the primary {} times", e.left));
     }
-    if e.facet > 0.0 && e.slip > FAR * e.facet {
+    if e.facet > 0.0 && e.slip > LARGE_SLIP * e.facet {
         what.push(format!(
             "slid over {:.2} facets in one increment",
             e.slip / e.facet
         ));
     }
-    if e.kink > KINK {
+    if e.kink > SLOPE_RATIO_OF_KINK {
         what.push(format!(
             "lies at a kink of the normal law, slopes 1 to {:.1}",
             e.kink
@@ -193,11 +194,11 @@ fn kink(law: &dyn NormalLaw, a: f64, b: f64) -> f64 {
         if low > 0.0 { high / low } else { 1.0 }
     };
     let (mut a, mut b) = (a, b);
-    if !(a.is_finite() && b.is_finite()) || ratio(a, b) <= KINK {
+    if !(a.is_finite() && b.is_finite()) || ratio(a, b) <= SLOPE_RATIO_OF_KINK {
         return 1.0;
     }
     // A smooth law has less and less of it in ever smaller intervals; a kink keeps all of it.
-    for _ in 0..HALVINGS {
+    for _ in 0..KINK_HALVINGS {
         let middle = 0.5 * (a + b);
         if ratio(a, middle) > ratio(middle, b) {
             b = middle;
@@ -206,7 +207,7 @@ fn kink(law: &dyn NormalLaw, a: f64, b: f64) -> f64 {
         }
     }
     match ratio(a, b) {
-        kept if kept > KINK => kept,
+        kept if kept > SLOPE_RATIO_OF_KINK => kept,
         _ => 1.0,
     }
 }

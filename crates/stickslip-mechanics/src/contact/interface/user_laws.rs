@@ -12,9 +12,7 @@ use crate::contact::law::user::{
 };
 use crate::contact::pairing::Anchor;
 use crate::contact::response::{Answers, Laws, OwnFriction};
-
-/// Negative limit relative to the pressure that is none.
-const ROUNDING: f64 = 1e-12;
+use crate::tolerance::ROUNDING;
 
 /// The interface with functions of the program in place of the normal law and the friction law of the problem. To be asked for before the analysis
 /// begins.
@@ -74,6 +72,7 @@ pub(super) fn ask(
         let points: Vec<_> = questions.iter().map(|q| q.friction).collect();
         for (q, mut answer) in questions.iter().zip(friction.limits(&points)) {
             // A negative limit would push where friction resists: the iteration stops instead.
+            // A limit that is negative by no more than rounding is none.
             if answer.value < -ROUNDING * q.friction.pressure.abs() {
                 answer.value = f64::NAN;
             }

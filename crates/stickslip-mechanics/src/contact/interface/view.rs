@@ -4,9 +4,6 @@ use super::definition::InterfaceDefinition;
 use super::history::History;
 use crate::contact::enforcement::Multipliers;
 
-/// Part of the tolerance by which a gap may be left as it is where a point stays in contact.
-const LEFT: f64 = 0.5;
-
 /// Shared references to the definition of an interface and to a history of it: that of now, or that of an increment which is reported later.
 #[derive(Debug, Clone, Copy)]
 pub struct ContactView<'a> {
@@ -74,6 +71,7 @@ impl ContactView<'_> {
         }
         let points = self.points.iter().zip(&self.state.points);
         let approach = points.map(|(p, h)| h.pressure.abs() / p.stiffness);
-        LEFT * error * approach.fold(0.0, f64::max)
+        // Where a point stays in contact, a gap of half of the tolerance is left as it is.
+        0.5 * error * approach.fold(0.0, f64::max)
     }
 }

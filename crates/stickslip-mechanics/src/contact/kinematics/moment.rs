@@ -38,9 +38,6 @@ pub struct NodeSums {
     pub reach: f64,
 }
 
-/// Part of the moments of single forces below which their sum is rounding.
-const ROUNDED: f64 = 1e-13;
-
 /// Adds `Σ_k (l_k·e) n` to the gradient of the slip along `e`.
 pub(super) fn add_arm(e: Vec3, normal: Vec3, parts: &[NodeSums], dim: usize, row: &mut [f64]) {
     for (row, part) in row.chunks_exact_mut(dim).zip(parts) {
@@ -74,7 +71,8 @@ pub(super) fn remove(
     }
     let moments: [Option<Vec3>; 3] = std::array::from_fn(|q| {
         let sum = kept(sums[q]);
-        (norm(sum) > ROUNDED * sizes[q]).then_some(sum)
+        // A sum below this part of the moments of single forces is rounding.
+        (norm(sum) > 1e-13 * sizes[q]).then_some(sum)
     });
     if moments.iter().all(Option::is_none) {
         return;

@@ -11,10 +11,7 @@ use crate::math::{
 };
 
 /// Part of the weights around a point below which one that is left of a sum is rounding.
-const NOTHING: f64 = 1e-13;
-
-/// Roundings of the largest coordinate that a gap may be off.
-const ROUNDING: f64 = 32.0;
+const NO_WEIGHT: f64 = 1e-13;
 
 /// Sums over the faces around a point, which are means once they are divided by the area.
 #[derive(Debug, Clone, Copy, Default)]
@@ -58,7 +55,7 @@ pub fn gather(
     };
     let around = &mortar.around[i];
     let whole: f64 = around.iter().map(|&(f, a)| integrals[f].area[a]).sum();
-    let least = NOTHING * whole;
+    let least = NO_WEIGHT * whole;
     for &(f, a) in around {
         let face = &integrals[f];
         sums.area += face.area[a];
@@ -154,7 +151,7 @@ impl MeanPoint<'_> {
         let turn = |v: Vec3| if self.held { mat_vec(&own, v) } else { v };
         for ((_, weight), part) in all[first..].iter_mut().zip(parts.iter_mut()) {
             *weight *= per_area;
-            if weight.abs() <= NOTHING {
+            if weight.abs() <= NO_WEIGHT {
                 *weight = 0.0;
             }
             part.gradient = turn(scale(per_area / length, part.gradient));
@@ -219,7 +216,8 @@ impl MeanPoint<'_> {
         if dim == 2 {
             out.slip[1] = 0.0;
         }
-        let rounding = ROUNDING * f64::EPSILON * (largest.sqrt() + self.origin);
+        // A gap may be off by 32 roundings of the largest coordinate.
+        let rounding = 32.0 * f64::EPSILON * (largest.sqrt() + self.origin);
         if self.before_first_contact && gap.abs() <= rounding {
             gap = 0.0;
         }
@@ -266,7 +264,7 @@ fn remove_idle(
     for (k, part) in parts.iter().enumerate() {
         let dofs = k * dim..(k + 1) * dim;
         let entries = out.rows.iter().flat_map(|row| &row[dofs.clone()]);
-        let idle = entries.fold(all[first + k].1.abs(), |m, r| m.max(r.abs())) <= NOTHING;
+        let idle = entries.fold(all[first + k].1.abs(), |m, r| m.max(r.abs())) <= NO_WEIGHT;
         if idle && part.reach > 0.0 {
             continue;
         }

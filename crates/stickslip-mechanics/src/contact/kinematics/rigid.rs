@@ -22,12 +22,12 @@ pub fn tangents(n: Vec3, dim: usize) -> [Vec3; 2] {
 }
 
 /// One plus the cosine of the angle between normals below which they count as opposite: the least turn between them has no direction.
-const OPPOSITE: f64 = 1e-9;
+const OPPOSITE_NORMALS: f64 = 1e-9;
 
 /// A tangent vector where the unit normal is `from`, carried to where it is `to` by the least rotation that turns one normal into the other. It
 /// keeps its length and stays tangent. On planes, cylinders and spheres this is parallel transport along the shortest way.
 pub fn carried_over(v: Vec3, from: Vec3, to: Vec3) -> Vec3 {
-    let c = (1.0 + dot(from, to)).max(OPPOSITE);
+    let c = (1.0 + dot(from, to)).max(OPPOSITE_NORMALS);
     add_scaled(v, -dot(v, to) / c, add(from, to))
 }
 
@@ -75,7 +75,7 @@ fn arc_over_sine(cosine: f64, sine: f64) -> (f64, f64) {
             -(1.0 / 3.0 + e * (4.0 / 15.0 + e * (6.0 / 35.0 + e * 32.0 / 315.0))),
         );
     }
-    let sine = sine.max(OPPOSITE);
+    let sine = sine.max(OPPOSITE_NORMALS);
     let g = sine.atan2(cosine) / sine;
     (g, (cosine * g - 1.0) / (sine * sine))
 }
@@ -131,7 +131,7 @@ fn way(
     let carrying = turned(from.normal);
     let sum = dual::add(carrying, n);
     let cosine = Dual::constant(1.0) + dual::dot(carrying, n);
-    let directions = if cosine.value > OPPOSITE {
+    let directions = if cosine.value > OPPOSITE_NORMALS {
         let inverse = cosine.reciprocal();
         from.directions.map(|direction| {
             let v = turned(direction);

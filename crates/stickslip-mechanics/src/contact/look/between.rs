@@ -18,6 +18,7 @@ use crate::contact::search::Tree;
 use crate::contact::surface::{Facet, Skin, concave_offsets};
 use crate::math::{Vec3, add_scaled, distance, dot, norm, normalize, sub};
 use crate::shape::ElementKind;
+use crate::tolerance::NEGLIGIBLE;
 
 /// What the contact points of an interface do not see.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -31,14 +32,8 @@ pub struct Between {
     pub apart: f64,
 }
 
-/// How far beyond the edge of a facet, relative to its size, a place is opposite it.
-const EDGE: f64 = 1e-6;
-
-/// Part of a cell by which surfaces may overlap without having moved.
-const START: f64 = 0.5;
-
 /// Faces looked at by one task.
-const CHUNK: usize = 16;
+const LOOKS_PER_TASK: usize = 16;
 
 /// A place on a surface.
 struct Place {
@@ -131,7 +126,8 @@ impl<'a> Side<'a> {
         let foot = patch.project(place.x)?;
         let facet = self.facets[f];
         let size = distance(self.x[facet.nodes[0]], self.x[facet.nodes[1]]);
-        (patch.beyond(&foot).distance <= EDGE * size).then_some((f, foot))
+        // A place is opposite a facet up to this far beyond its edge.
+        (patch.beyond(&foot).distance <= NEGLIGIBLE * size).then_some((f, foot))
     }
 
     /// The nearest facet that faces a place, and the gap; `None` where there is none, or where the place lies beneath facets but beside all of
@@ -161,7 +157,7 @@ impl<'a> Side<'a> {
             let away = facet_distance(place.x, &p, over);
             let gap = dot(sub(place.x, p.x), p.normal);
             let size = distance(self.x[facet.nodes[0]], self.x[facet.nodes[1]]);
-            if over.distance > EDGE * size {
+            if over.distance > NEGLIGIBLE * size {
                 if gap > 0.0 && aside.is_none_or(|a| away < a.0) {
                     aside = Some((away, f));
                 }
@@ -179,7 +175,8 @@ impl<'a> Side<'a> {
             let rest = rest.fold([0.0; 3], |s, (&n, &w)| add_scaled(s, w, self.reference[n]));
             let came = dot(sub(sub(place.x, place.from), sub(p.x, rest)), p.normal);
             let size = size.max(self.sizes.get(f).copied().unwrap_or(0.0));
-            let deepest = self.deep + START * size + came.abs();
+            // Surfaces may overlap by half of a cell without having moved.
+            let deepest = self.deep + 0.5 * size + came.abs();
             best = Some((away, f, (gap >= -deepest).then_some(gap)));
         }
         match (best, aside) {
@@ -252,7 +249,7 @@ pub fn opening(contact: ContactView, u: &[f64]) -> f64 {
         });
         squares.fold((0.0, 0.0), |(sum, count), s| (sum + s, count + 1.0))
     };
-    let sums: Vec<(f64, f64)> = (contact.skin.par_chunks(CHUNK))
+    let sums: Vec<(f64, f64)> = (contact.skin.par_chunks(LOOKS_PER_TASK))
         .flat_map_iter(|skins| {
             let mut found = Vec::new();
             let held = skins.iter().filter(|s| s.points.iter().any(glued));
@@ -299,8 +296,8 @@ fn lowest_of_facets(contact: ContactView, facets: &[Facet], x: &[Vec3], lowest: 
         &contact.reference,
     );
     lowest
-        .par_chunks_mut(CHUNK)
-        .zip(contact.skin.par_chunks(CHUNK))
+        .par_chunks_mut(LOOKS_PER_TASK)
+        .zip(contact.skin.par_chunks(LOOKS_PER_TASK))
         .for_each(|(lowest, skins)| {
             let mut found = Vec::new();
             for (lowest, skin) in lowest.iter_mut().zip(skins) {
@@ -320,7 +317,7 @@ fn lowest_of_facets(contact: ContactView, facets: &[Facet], x: &[Vec3], lowest: 
     let ours = Side::new(ours, sizes, deep, x, &contact.reference);
     let corners = corners(facets, x, &contact.reference);
     let gaps: Vec<Option<(usize, f64)>> = corners
-        .par_chunks(CHUNK)
+        .par_chunks(LOOKS_PER_TASK)
         .flat_map_iter(|corners| {
             let mut found = Vec::new();
             let gaps: Vec<_> = corners.iter().map(|c| ours.gap(c, &mut found)).collect();

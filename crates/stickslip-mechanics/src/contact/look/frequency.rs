@@ -1,12 +1,10 @@
 //! How fast the springs and dashpots of an interface let masses swing: what bounds explicit increments.
 
+use crate::contact::interface::initial::TOUCHING;
 use crate::contact::interface::sides::weights_of;
 use crate::contact::interface::stiffness::spring;
 use crate::contact::interface::{History, Interface};
 use crate::system::Links;
-
-/// Penetration of a point about to touch, relative to the cell beneath.
-const TOUCHED: f64 = 1e-6;
 
 /// An upper bound of the squared frequency `[1/s²]` that the springs of the interface have with these inverse masses by dof: by the
 /// rows of its stiffness (Gershgorin). Springs that are not in contact count as well where they have a stiffness of their own. For
@@ -57,8 +55,9 @@ pub fn pressed_frequency(
 pub fn highest_rate(interface: &Interface, inverse_mass: &[f64], links: &Links) -> f64 {
     let last = &interface.cache.last.points;
     let damping = interface.laws.damping.as_dyn();
+    // A point about to touch.
     let touched = |i: usize| {
-        let depth = TOUCHED * interface.points[i].size;
+        let depth = TOUCHING * interface.points[i].size;
         let own = interface.laws.normal_law().pressure(-depth);
         own.map_or(interface.points[i].stiffness * depth, |p| p.value)
     };
@@ -95,7 +94,7 @@ fn stiffest(interface: &Interface, state: &History, i: usize, links: &Links) -> 
         .map_or(0.0, |e| e.slope());
     // A rigid body has no cells whose frequency would bound the step on the way to a compliant surface.
     let rigid = |&node: &usize| links.of_point(interface.nodes[node]).is_some();
-    let touched = || interface.laws.normal_law().pressure(-TOUCHED * point.size);
+    let touched = || interface.laws.normal_law().pressure(-TOUCHING * point.size);
     let ahead = match point.nodes.iter().any(rigid) {
         true => -touched().map_or(0.0, |p| p.slope),
         false => 0.0,

@@ -6,8 +6,8 @@ use crate::contact::interface::view::ContactView;
 use crate::contact::surface::{ContactPoint, Facet};
 use crate::math::{Vec3, add, add_scaled, distance, dot, inverse, norm, scale, sub};
 
-/// How much farther than the nearest of its face a quadrature point may be and still count as beside another.
-const BESIDE: f64 = 1.3;
+/// How much farther than the nearest of its face a quadrature point may be and still count as beside another. Tuned.
+const BESIDE_NEAREST: f64 = 1.3;
 
 /// The points beside each point of a secondary surface with these facets and reference coordinates, in order.
 ///
@@ -98,13 +98,17 @@ fn across(
             let nearest = own.iter().map(|o| o.0).fold(f64::INFINITY, f64::min);
             let mut near: Vec<usize> = own
                 .iter()
-                .filter(|o| o.0 <= BESIDE * nearest)
+                .filter(|o| o.0 <= BESIDE_NEAREST * nearest)
                 .map(|o| o.1)
                 .collect();
             for &other in &touching {
                 let distances = groups[other].1.iter().map(|&j| (apart(i, j), j));
                 let closest = distances.min_by(|a, b| a.0.total_cmp(&b.0));
-                near.extend(closest.filter(|c| c.0 <= BESIDE * nearest).map(|c| c.1));
+                near.extend(
+                    closest
+                        .filter(|c| c.0 <= BESIDE_NEAREST * nearest)
+                        .map(|c| c.1),
+                );
             }
             out.push((i, near));
         }

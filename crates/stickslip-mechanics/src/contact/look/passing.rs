@@ -8,14 +8,8 @@ use crate::contact::interface::Primary;
 use crate::contact::interface::view::ContactView;
 use crate::math::distance;
 
-/// Facets that surfaces go before their way is looked at: where they go less, a tooth cannot be missed.
-const FAR: f64 = 10.0;
-
 /// Parts of the way at which it is: by no whole number of teeth from one to the next, whatever the number of teeth that it is long.
 const PARTS: [f64; 4] = [0.236, 0.382, 0.618, 0.854];
-
-/// Overlap on the way that is none, in lengths of facets: what is straight in one frame is not in another.
-const NONE: f64 = 1.0;
 
 /// By how much more than at either end its sides overlap on the straight way between two displacements by dof and times `[m]`; `None` where they do not, and where they go too
 /// short a way to miss anything.
@@ -42,7 +36,8 @@ pub fn tunnels(
             moved.fold(0.0, f64::max)
         }
     };
-    if ways.fold(turned, f64::max) <= FAR * size {
+    // The way of surfaces is looked at once they go ten facets: where they go less, a tooth cannot be missed.
+    if ways.fold(turned, f64::max) <= 10.0 * size {
         return None;
     }
     let least = |x: &[_], t: f64| lowest(contact, x, t).into_iter().fold(0.0, f64::min);
@@ -53,5 +48,6 @@ pub fn tunnels(
         deepest.min(least(&contact.coordinates(&u), mean(before, after)))
     });
     let deeper = at_ends - deepest;
-    (deeper > NONE * size).then_some(deeper)
+    // An overlap on the way of less than a facet is none: what is straight in one frame is not in another.
+    (deeper > size).then_some(deeper)
 }

@@ -4,6 +4,7 @@ use crate::contact::interface::view::ContactView;
 use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, cross, norm, normalize, scale, sub};
 use crate::system::Tally;
+use crate::tolerance::SAME;
 
 /// Forces of an interface on what the problem calls its secondary.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -29,12 +30,6 @@ pub struct Resultant {
     /// The same of all forces, shear included `[N]`.
     pub carried: f64,
 }
-
-/// What pressure and pull leave of their sum, relative to the sum of their magnitudes, where they have no centre.
-const CANCELLED: f64 = 1e-9;
-
-/// Pressures that differ by less than this part are alike.
-const ALIKE: f64 = 1e-9;
 
 /// Forces on the secondary, as it is named, at the last committed state `u`.
 pub fn resultant(contact: ContactView, u: &[f64]) -> Resultant {
@@ -62,7 +57,8 @@ pub fn resultant(contact: ContactView, u: &[f64]) -> Resultant {
             false => h.pressure,
         };
         // What is larger by rounding only is no other place.
-        if most > (1.0 + ALIKE) * r.peak {
+        // Pressures that differ by less are alike.
+        if most > (1.0 + SAME) * r.peak {
             r.peak_at = add(place, contact.origin);
         }
         r.peak = r.peak.max(most);
@@ -80,7 +76,8 @@ pub fn resultant(contact: ContactView, u: &[f64]) -> Resultant {
         r.moment = add(r.moment, cross(place, force));
     }
     r.normal = sub(all, r.shear);
-    r.centre = match signed.abs() > CANCELLED * r.total {
+    // Where pressure and pull cancel each other, they have no centre.
+    r.centre = match signed.abs() > SAME * r.total {
         true => add(scale(1.0 / signed, r.centre), contact.origin),
         false => [0.0; 3],
     };

@@ -4,12 +4,8 @@ use super::between::Side;
 use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::contact::surface::{Facet, spacing};
 
-/// Part of all places, the nearest ones, where cells are compared; at least this many places.
-const NEAREST: f64 = 0.25;
+/// Places where cells are compared, at least.
 const LEAST: usize = 4;
-
-/// Part of the spacing by which places are as near as the farthest of these.
-const ALIKE: f64 = 1e-3;
 
 /// Distance of the points of the secondary over that of the nodes of the primary, where the surfaces are nearest to each other in the reference
 /// configuration: above one where the secondary is the coarser side. Where nothing lies opposite all facets count alike. `None` of an obstacle.
@@ -42,9 +38,11 @@ pub fn coarser(definition: &InterfaceDefinition) -> Option<f64> {
         return Some(median(own) / median(other));
     }
     pairs.sort_by(|p, q| p[0].total_cmp(&q[0]));
-    let count = ((NEAREST * pairs.len() as f64) as usize).max(LEAST);
+    // Cells are compared at the nearest quarter of all places.
+    let count = ((0.25 * pairs.len() as f64) as usize).max(LEAST);
     let [gap, _, size] = pairs[count.min(pairs.len()) - 1];
-    pairs.retain(|p| p[0] <= gap + ALIKE * size);
+    // Places are as near as the farthest of these within a thousandth of the spacing.
+    pairs.retain(|p| p[0] <= gap + 1e-3 * size);
     Some(median(pairs.iter().map(|p| p[1]).collect()))
 }
 

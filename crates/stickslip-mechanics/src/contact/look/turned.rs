@@ -6,9 +6,6 @@ use crate::contact::interface::view::ContactView;
 use crate::contact::surface::{Facet, turns};
 use crate::math::{Vec3, add, angle, norm};
 
-/// Part of the largest pressure that counts as pressing.
-const PRESSED: f64 = 0.1;
-
 /// The largest angle by which the normal of a point that presses differs from what it is now, at displacements `u` `[rad]`; zero unless normals are those
 /// of the reference configuration.
 ///
@@ -17,7 +14,8 @@ pub fn normals_turned(contact: ContactView, u: &[f64]) -> f64 {
     let points = &contact.state.points;
     let most = points.iter().map(|h| h.pressure).fold(0.0, f64::max);
     let turns = turns_of_normals(contact, u).into_iter();
-    let pressed = turns.filter(|(i, _)| points[*i].pressure > PRESSED * most);
+    // Part of the largest pressure that counts as pressing.
+    let pressed = turns.filter(|(i, _)| points[*i].pressure > 0.1 * most);
     pressed.map(|(_, turn)| turn).fold(0.0, f64::max)
 }
 

@@ -9,9 +9,6 @@ use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::contact::surface::{Facet, spacing};
 use crate::math::{Vec3, cross, dot, norm, scale, sub};
 
-/// Cosine of the angle between faces from which they meet at an edge, which is no curvature.
-const EDGE: f64 = 0.9;
-
 /// The deepest and the steepest of what is worn off, each beside what it has to be small against.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct WearProfile {
@@ -69,7 +66,8 @@ fn profile_of(contact: ContactView, facets: &[&Facet], depths: &[f64]) -> WearPr
     for (node, faces) in around {
         for (i, (n, x)) in faces.iter().enumerate() {
             for (m, y) in &faces[i + 1..] {
-                if dot(*n, *m) > EDGE {
+                // Cosine of the angle between faces that meet at an edge, which is no curvature.
+                if dot(*n, *m) > 0.9 {
                     let curvature = norm(sub(*n, *m)) / norm(sub(*x, *y));
                     profile.curved = profile.curved.max(depths[node] * curvature);
                 }

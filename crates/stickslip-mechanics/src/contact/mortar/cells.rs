@@ -3,9 +3,6 @@
 use crate::math::{Vec3, add_scaled, distance, scale};
 use crate::shape::ElementKind;
 
-/// Distance of a middle node from the middle of its edge, relative to the edge, up to which the edge counts as straight.
-const STRAIGHT: f64 = 1e-3;
-
 /// Corner nodes of the straight cells that a face is cut into: the face itself if its edges are straight.
 pub(super) fn cells(
     kind: ElementKind,
@@ -20,7 +17,8 @@ pub(super) fn cells(
             _ => (at(k - corners), at((k - corners + 1) % corners)),
         };
         let middle = add_scaled(scale(0.5, a), 0.5, b);
-        distance(at(k), middle) <= STRAIGHT * distance(a, b)
+        // An edge counts as straight up to this distance of its middle node from its middle, relative to the edge.
+        distance(at(k), middle) <= 1e-3 * distance(a, b)
     });
     match (kind, straight) {
         (ElementKind::Line2, _) | (ElementKind::Line3, true) => &[&[0, 1]],

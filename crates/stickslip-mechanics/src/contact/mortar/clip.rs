@@ -4,12 +4,12 @@
 pub type Point = [f64; 2];
 
 /// Most corners: each of the four sides of a face adds one at most to the four corners of a facet.
-pub const MOST: usize = 8;
+pub const MOST_CORNERS: usize = 8;
 
 /// A convex polygon, counter-clockwise.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Polygon {
-    corners: [Point; MOST],
+    corners: [Point; MOST_CORNERS],
     count: usize,
 }
 
@@ -17,14 +17,14 @@ impl Polygon {
     /// From its corners.
     pub fn new(corners: impl Iterator<Item = Point>) -> Self {
         let mut polygon = Polygon::default();
-        for corner in corners.take(MOST) {
+        for corner in corners.take(MOST_CORNERS) {
             polygon.push(corner);
         }
         polygon
     }
 
     fn push(&mut self, corner: Point) {
-        if self.count < MOST {
+        if self.count < MOST_CORNERS {
             self.corners[self.count] = corner;
             self.count += 1;
         }

@@ -11,12 +11,6 @@ use super::sides::Sides;
 use crate::math::{Vec3, add_scaled, cross, distance, norm, scale};
 use crate::shape::{ElementKind, mass_rule};
 
-/// Distance of the centroid of the pieces from that of the facet, relative to its size, at which the correction has faded away.
-const WHOLE: f64 = 1e-3;
-
-/// The same of the area.
-const AREA: f64 = 0.05;
-
 /// Integrals over a facet itself.
 struct Itself {
     area: f64,
@@ -81,8 +75,10 @@ fn missing(
     let itself = integrals(kind, x);
     let placed = x.iter().zip(sums);
     let centroid = placed.fold([0.0; 3], |c, (&x, s)| add_scaled(c, s / area, x));
-    let off = distance(centroid, itself.centroid) / (WHOLE * size);
-    let off = off.max((area / itself.area - 1.0).abs() / AREA);
+    // The correction has faded away where the centroid of the pieces is a thousandth of the size of the facet from that of the facet.
+    let off = distance(centroid, itself.centroid) / (1e-3 * size);
+    // The same of the area, at a twentieth.
+    let off = off.max((area / itself.area - 1.0).abs() / 0.05);
     let fade = (2.0 * (1.0 - off)).min(1.0);
     if fade <= 0.0 {
         return None;

@@ -8,7 +8,7 @@ use crate::shape::{ElementKind, mass_rule};
 ///
 /// A corner of a quadratic face has no area of its own or a negative one. With a fifth of its middle nodes all areas are positive, and
 /// the functions span the same space ([Popp et al. 2012](stickslip_base::references::popp_2012)).
-const SHARE: f64 = 0.2;
+const CORNER_SHARE: f64 = 0.2;
 
 /// One number each pair of nodes.
 pub type Matrix = [[f64; FACE_NODES]; FACE_NODES];
@@ -20,18 +20,18 @@ pub fn positive(kind: ElementKind, n: &mut [f64; FACE_NODES]) {
     }
     let corners = kind.corner_count();
     if kind.dim() == 1 {
-        n[0] += SHARE * n[2];
-        n[1] += SHARE * n[2];
-        n[2] *= 1.0 - 2.0 * SHARE;
+        n[0] += CORNER_SHARE * n[2];
+        n[1] += CORNER_SHARE * n[2];
+        n[2] *= 1.0 - 2.0 * CORNER_SHARE;
         return;
     }
     for k in 0..corners {
         let middle = n[corners + k];
-        n[k] += SHARE * middle;
-        n[(k + 1) % corners] += SHARE * middle;
+        n[k] += CORNER_SHARE * middle;
+        n[(k + 1) % corners] += CORNER_SHARE * middle;
     }
     for middle in &mut n[corners..2 * corners] {
-        *middle *= 1.0 - 2.0 * SHARE;
+        *middle *= 1.0 - 2.0 * CORNER_SHARE;
     }
 }
 
@@ -49,10 +49,10 @@ pub fn mean_weights(kind: ElementKind, k: usize) -> (Vec<usize>, Vec<f64>) {
         1 => [0, 1],
         _ => [k - corners, (k - corners + 1) % corners],
     };
-    let rest = 1.0 - 2.0 * SHARE;
+    let rest = 1.0 - 2.0 * CORNER_SHARE;
     (
         vec![k, ends[0], ends[1]],
-        vec![1.0 / rest, -SHARE / rest, -SHARE / rest],
+        vec![1.0 / rest, -CORNER_SHARE / rest, -CORNER_SHARE / rest],
     )
 }
 

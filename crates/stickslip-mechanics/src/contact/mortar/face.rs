@@ -64,8 +64,9 @@ impl Mortar {
     }
 }
 
-/// Cosine of the angle between the normals that two faces have at a node from which on they meet at an edge of the body: normals are averaged where the surface is smooth.
-const SMOOTH: f64 = 0.999;
+/// Cosine of the angle between the normals that two faces have at a node from which on they meet at an edge of the body: normals are
+/// averaged where the surface is smooth. It is an angle of 2.6 degrees. Tuned.
+const SMOOTH_COSINE: f64 = 0.999;
 
 /// Finds out which edges are shared with a face that goes smoothly on.
 fn connect(faces: &mut [Face]) {
@@ -89,7 +90,7 @@ fn connect(faces: &mut [Face]) {
         };
         let smooth = nodes.iter().all(|&node| {
             let both = normal(faces, f, node).zip(normal(faces, g, node));
-            both.is_some_and(|(a, b)| dot(a, b) > SMOOTH)
+            both.is_some_and(|(a, b)| dot(a, b) > SMOOTH_COSINE)
         });
         faces[f].continues[e] = smooth;
         faces[g].continues[h] = smooth;

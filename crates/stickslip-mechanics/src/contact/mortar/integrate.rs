@@ -15,9 +15,6 @@ use crate::contact::projection::Patch;
 use crate::contact::walls::depth_behind;
 use crate::math::Vec3;
 
-/// Part of a face below which what lies opposite is left out.
-const LEAST: f64 = 1e-4;
-
 /// Room to work in.
 #[derive(Debug, Default)]
 pub struct Scratch {
@@ -58,7 +55,8 @@ pub fn integrate(
         }
     }
     let covered: f64 = scratch.samples.iter().map(|s| s.w).sum();
-    if covered < LEAST * face.area {
+    // What covers less than this part of a face is left out.
+    if covered < 1e-4 * face.area {
         out.clear();
         return;
     }

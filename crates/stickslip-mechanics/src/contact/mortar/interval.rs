@@ -6,9 +6,7 @@ use super::view::View;
 use super::window::{Window, frame};
 use crate::math::{Vec3, dot, sub};
 use crate::shape::ElementKind;
-
-/// Part of a line below which a piece of it is nothing.
-const LEAST_PIECE: f64 = 1e-12;
+use crate::tolerance::ROUNDING;
 
 /// A line from `origin` along a direction.
 pub(super) struct Interval {
@@ -40,7 +38,7 @@ impl Window for Interval {
         let at = |k: usize| dot(sub(x[other[k]], self.origin), self.along) / self.length;
         let (low, high) = (at(0).min(at(1)).max(0.0), at(0).max(at(1)).min(1.0));
         // A NaN is nothing as well as what is too short.
-        let nothing = high - low <= LEAST_PIECE;
+        let nothing = high - low <= ROUNDING;
         (!nothing).then_some([low, high])
     }
 

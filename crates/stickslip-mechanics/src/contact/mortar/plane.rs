@@ -4,19 +4,15 @@ use super::clip::{Point, Polygon};
 use super::rules;
 use super::view::View;
 use super::window::{Window, frame};
+use crate::contact::projection::FARTHEST;
 use crate::math::{Vec3, dot, sub};
 use crate::shape::ElementKind;
 
-/// Part of a cell below which a piece of it is nothing.
-const LEAST_PIECE: f64 = 1e-14;
-
-/// Steps of Newton's method for a place in a quadrilateral; a step in reference coordinates after which it is there, and one that leads nowhere.
+/// Steps of Newton's method for a place in a quadrilateral.
 const ITERATIONS: usize = 20;
-const SETTLED: f64 = 1e-14;
-const FAR: f64 = 1e3;
 
 /// Most corners of a cell.
-const MOST: usize = 4;
+const CELL_CORNERS: usize = 4;
 
 /// A cell in a plane.
 pub(super) struct Plane {
@@ -24,8 +20,8 @@ pub(super) struct Plane {
     origin: Vec3,
     axes: [Vec3; 2],
     /// Its corners in the plane, with their reference coordinates on the face.
-    corners: [Point; MOST],
-    nodes: [Point; MOST],
+    corners: [Point; CELL_CORNERS],
+    nodes: [Point; CELL_CORNERS],
     count: usize,
     polygon: Polygon,
     size: f64,
@@ -55,7 +51,7 @@ impl Plane {
         let origin = view.x[cell[0]];
         let axes = frame(normal, sub(view.x[cell[1]], origin))?;
         let reference = view.face.kind.reference().nodes();
-        let (mut corners, mut nodes) = ([[0.0; 2]; MOST], [[0.0; 2]; MOST]);
+        let (mut corners, mut nodes) = ([[0.0; 2]; CELL_CORNERS], [[0.0; 2]; CELL_CORNERS]);
         for ((corner, node), &k) in corners.iter_mut().zip(&mut nodes).zip(cell) {
             *corner = axes.map(|e| dot(sub(view.x[k], origin), e));
             *node = [reference[k][0], reference[k][1]];
@@ -97,7 +93,7 @@ impl Window for Plane {
     type Part = Polygon;
 
     fn common(&self, x: &[Vec3], other: &[usize]) -> Option<Polygon> {
-        let mut corners = [[0.0; 2]; MOST];
+        let mut corners = [[0.0; 2]; CELL_CORNERS];
         for (c, &k) in corners.iter_mut().zip(other) {
             *c = self.axes.map(|e| dot(sub(x[k], self.origin), e));
         }
@@ -106,7 +102,8 @@ impl Window for Plane {
         if b[0] >= a[2] || b[2] <= a[0] || b[1] >= a[3] || b[3] <= a[1] {
             return None;
         }
-        let least = LEAST_PIECE * self.size;
+        // A smaller piece of a cell is nothing.
+        let least = 1e-14 * self.size;
         let common = Polygon::new(corners.iter().copied())
             .reversed()
             .cut(&self.polygon)
@@ -163,10 +160,11 @@ fn locate(corners: &[Point], p: Point) -> Option<([f64; 4], f64)> {
             (u[0] * r[1] - u[1] * r[0]) / det,
         ];
         let longest = step[0].abs().max(step[1].abs());
-        if !longest.is_finite() || longest > FAR {
+        if !longest.is_finite() || longest > FARTHEST {
             return None;
         }
-        if longest < SETTLED {
+        // After such a step in reference coordinates the place is found.
+        if longest < 1e-14 {
             let weights = [
                 0.25 * (1.0 - s) * (1.0 - t),
                 0.25 * (1.0 + s) * (1.0 - t),

@@ -11,13 +11,11 @@ use crate::contact::projection::Patch;
 use crate::contact::surface::edges;
 use crate::math::{Vec3, add_scaled, cross, dot, norm, normalize, scale, sub};
 use crate::shape::ElementKind;
+use crate::tolerance::NEGLIGIBLE;
 
 /// Sines of the angle between two surfaces up to which they lie on each other, and from which they touch at an edge. Strains turn what is pressed flat by no more than the lower one, the limit
 /// that small strains have, and there both normals are the same to that part.
 const ANGLES: [f64; 2] = [0.05, 0.1];
-
-/// Part of the size of a facet by which it may miss a plane of symmetry that it ends on.
-const ON_PLANE: f64 = 1e-6;
 
 /// Facets after which no farther ones are looked at.
 const STEPS: usize = 16;
@@ -101,7 +99,7 @@ impl Rim<'_> {
     /// Whether a place lies on a plane of symmetry, beyond which the surfaces go on as their images.
     fn mirrored(&self, at: Vec3, size: f64) -> bool {
         let mut planes = self.sides.mirrors.iter();
-        planes.any(|&(axis, place)| (at[axis] - place).abs() <= ON_PLANE * size)
+        planes.any(|&(axis, place)| (at[axis] - place).abs() <= NEGLIGIBLE * size)
     }
 
     /// Whether the secondary is still there where the primary ends, at `end`.

@@ -8,10 +8,6 @@ use super::sides::Sides;
 use super::view::Sample;
 use crate::math::add_scaled;
 
-/// Gap relative to the size of a face beyond which all that a part of it has opposite is far: nodes at the rim of what is covered are held by gaps next to it that
-/// are small, not by such ones.
-const FAR: f64 = 0.05;
-
 /// Sums over the quadrature points.
 pub(super) fn sum(
     face: &Face,
@@ -93,7 +89,9 @@ pub(super) fn sum(
         1 => face.area,
         _ => face.area.sqrt(),
     };
-    if let Some(floor) = floor(samples, FAR * size) {
+    // Gap relative to the size of a face beyond which all that a part of it has opposite is far: nodes at the rim of what is covered are
+    // held by gaps next to it that are small, not by such ones.
+    if let Some(floor) = floor(samples, 0.05 * size) {
         for (gap, area) in out.gap.iter_mut().zip(out.area) {
             *gap = gap.max(floor * area);
         }

@@ -4,22 +4,17 @@ use super::clip::Point;
 use super::dual::positive;
 use super::face::{FACE_NODES, Face};
 use super::rim::Rim;
-use crate::contact::projection::Patch;
+use crate::contact::projection::{FARTHEST, Patch};
 use crate::math::{
     Mat3, Vec3, add_scaled, cross, dot, inverse, mat_vec, norm, normalize, scale, sub,
 };
 use crate::shape::ElementKind;
 
-/// Cosine of the angle by which a facet has to look back at a face.
-const FACING: f64 = 0.1;
+/// Cosine of the angle by which a facet has to look back at a face. Tuned.
+const LEAST_FACING: f64 = 0.1;
 
-/// The same at a single place of a curved one.
-const LEAST_FACING: f64 = 0.5 * FACING;
-
-/// Steps of Newton's method for the place where a ray meets a facet; a step in reference coordinates after which it is there, and one that leads nowhere.
+/// Steps of Newton's method for the place where a ray meets a facet.
 const ITERATIONS: usize = 20;
-const SETTLED: f64 = 1e-8;
-const FAR: f64 = 1e3;
 
 /// A quadrature point.
 #[derive(Debug, Clone, Copy)]
@@ -113,12 +108,13 @@ fn hit(patch: &Patch, from: Vec3, n: Vec3, xi: &mut Point) -> Option<([Vec3; 2],
         let (inverse, _) = inverse(&matrix)?;
         let step = mat_vec(&inverse, sub(from, x));
         let longest = step[0].abs().max(step[1].abs());
-        if !longest.is_finite() || longest > FAR {
+        if !longest.is_finite() || longest > FARTHEST {
             return None;
         }
         xi[0] += step[0];
         xi[1] += step[1];
-        if affine || longest < SETTLED {
+        // After such a step in reference coordinates the ray meets the facet.
+        if affine || longest < 1e-8 {
             let (x, a) = patch.at(*xi);
             return Some((a, dot(sub(x, from), n)));
         }
@@ -231,7 +227,8 @@ impl View<'_> {
         };
         let beyond = beyond(gap * facing, m, wall.depth)
             || beyond(gap, scale(-1.0, normal), self.face.depth);
-        if facing < LEAST_FACING || beyond {
+        // At a single place of a curved facet half of the cosine is enough.
+        if facing < 0.5 * LEAST_FACING || beyond {
             return;
         }
         let mut positives = n;
@@ -260,5 +257,5 @@ impl View<'_> {
 pub(super) fn looks_back(facet: &Patch, normal: Vec3) -> bool {
     let [s, t, _] = facet.kind.centre();
     let (_, a) = facet.at([s, t]);
-    normalize(cross(a[0], a[1])).is_some_and(|m| dot(m, normal) < -FACING)
+    normalize(cross(a[0], a[1])).is_some_and(|m| dot(m, normal) < -LEAST_FACING)
 }

@@ -14,9 +14,6 @@ pub type Place = [i32; 2];
 /// Parts into which the distance to the next place is divided where an area is summed up.
 const PARTS: usize = 4;
 
-/// Part of the area of a place far from the axis that one has at least, which lies on or beyond the axis.
-const LEAST: f64 = 1e-3;
-
 /// What the surface is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Surface {
@@ -232,7 +229,8 @@ impl Chart {
             .map(|k| (k as f64 + 0.5) / parts - 1.0)
             .map(|t| (1.0 - t.abs()) / parts * extent(self.position(row, f64::from(at) + t)[0]))
             .sum();
-        self.apart(row) * mean.max(LEAST * extent(self.spacing))
+        // A place on or beyond the axis has at least this part of the area of one far from it.
+        self.apart(row) * mean.max(1e-3 * extent(self.spacing))
     }
 
     /// Zones between parallels, weighted as rows are, divided by their places.

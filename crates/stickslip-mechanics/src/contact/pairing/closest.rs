@@ -6,31 +6,26 @@ use crate::contact::projection::{Foot, facet_distance};
 use crate::contact::surface::Facet;
 use crate::contact::walls::depth_behind;
 use crate::math::{Vec3, add, cross, dot, norm, scale, sub};
+use crate::tolerance::SAME;
 
 /// How far a point may hang over an outer edge of the primary, relative to the facet. Where edges of both bodies coincide, strains move points over the edge: a tolerance below the strain
 /// lets these points come and go with the pressure that they carry, and then some problems have no solution. Tuned: of the random problems that failed with 1e-3 all are solved with any
 /// value from 3e-3 to 0.1. Abaqus extends its surfaces by 0.1; CalculiX lets points go at about 1.5e-3, and with 5e-3 they still leave in the same increment of the example press-and-slide.
 const EDGE_TOLERANCE: f64 = 5e-3;
 
-/// How far beyond a facet, relative to its size, a point may be and stay on it while the surface is flat.
-const KEPT: f64 = 1e-3;
+/// How far beyond a facet, relative to its size, a point may be and stay on it while the surface is flat. Tuned.
+const KEPT_BEYOND: f64 = 1e-3;
 
 /// How far beyond a facet, relative to its size, a point that goes back and forth in a valley may be and stay on it. Where facets turn by an angle from each
 /// to the next, the smooth surface that they stand for lies up to an eighth of it, times their size, away from them; so far the next facet is missed.
-const HELD: f64 = 0.125;
+const HELD_BEYOND: f64 = 0.125;
 
-/// Cosine of the angle up to which two facets stand for a smooth surface, and not for a corner.
-const SMOOTH: f64 = 0.95;
+/// Cosine of the angle up to which two facets stand for a smooth surface, and not for a corner. It is an angle of 18 degrees. Tuned.
+const FACETED_COSINE: f64 = 0.95;
 
-/// Distances from facets, relative to their size, and cosines that are equal but for rounding.
-const TIE: f64 = 1e-9;
-
-/// One minus the cosine of the angle between facets that make a flat surface. Together with `KEPT` it bounds the error of the gap to
+/// One minus the cosine of the angle between facets that make a flat surface. Together with `KEPT_BEYOND` it bounds the error of the gap to
 /// some 1e-6 of the facet.
-const FLAT: f64 = 1e-5;
-
-/// Part of the margin of the search that leaves room for facets that are equally near.
-const ROOM: f64 = 1e-8;
+const FLAT_COSINE: f64 = 1e-5;
 
 /// A point and the facets among which its own is.
 #[derive(Debug, Clone, Copy)]
@@ -109,7 +104,8 @@ impl Choice<'_> {
                 seed.take()
             } else {
                 // Beyond a facet `away` is the distance to a place of it, at least that to its box.
-                let limit = nearest + ROOM * self.margin;
+                // There is room for facets that are equally near.
+                let limit = nearest + 1e-8 * self.margin;
                 if self.box_distance2(f) > limit * limit || !self.may_face(f) {
                     continue;
                 }
@@ -119,7 +115,11 @@ impl Choice<'_> {
                 continue;
             };
             nearest = nearest.min(look.away);
-            let reach = if previous.held { HELD } else { KEPT };
+            let reach = if previous.held {
+                HELD_BEYOND
+            } else {
+                KEPT_BEYOND
+            };
             if previous.facet == Some(f) && look.carried && look.beyond <= reach * look.size {
                 kept = Some(look);
             }
@@ -156,13 +156,14 @@ impl Choice<'_> {
     /// Whether a point that may stay where it was does, though another facet is nearest.
     fn stays(&self, k: &Look, nearest: &Look, held: bool) -> bool {
         let cosine = dot(nearest.p.normal, k.p.normal);
-        let near = k.beyond <= KEPT * k.size;
+        let near = k.beyond <= KEPT_BEYOND * k.size;
         let within = |above: f64| {
             let mut both = [k, nearest].into_iter();
             both.all(|look| self.height(&look.p) <= above * look.size)
         };
         // A point that is held by next to no force may be on either side of a facet, one that goes back and forth a little above it.
-        near && (cosine > 1.0 - FLAT || within(TIE)) || held && cosine > SMOOTH && within(KEPT)
+        near && (cosine > 1.0 - FLAT_COSINE || within(SAME))
+            || held && cosine > FACETED_COSINE && within(KEPT_BEYOND)
     }
 
     /// Height of the point above the plane of its projection.
@@ -247,7 +248,7 @@ impl Choice<'_> {
         previous: Option<usize>,
     ) -> bool {
         // Distances equal but for rounding: an edge both facets share.
-        let tie = (look.away - held.away).abs() <= TIE * look.size;
+        let tie = (look.away - held.away).abs() <= SAME * look.size;
         match (look.carried, held.carried, tie) {
             (true, false, true) => true,
             (false, true, true) => false,
@@ -262,7 +263,7 @@ impl Choice<'_> {
     fn precedes(&self, f: usize, look: &Look, b: usize, held: &Look) -> bool {
         let facing = |look: &Look| dot(look.p.normal, self.outward);
         let apart = facing(look) - facing(held);
-        if apart.abs() > TIE {
+        if apart.abs() > SAME {
             return apart < 0.0;
         }
         let middle = |f: usize| {
@@ -273,7 +274,7 @@ impl Choice<'_> {
             scale(1.0 / nodes.len() as f64, sum)
         };
         let first = sub(middle(f), middle(b));
-        let tie = TIE.sqrt() * look.size;
+        let tie = SAME.sqrt() * look.size;
         first
             .iter()
             .find(|d| d.abs() > tie)

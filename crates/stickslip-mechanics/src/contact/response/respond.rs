@@ -39,9 +39,6 @@ fn tie(stencil: &Stencil, at: &LawInput) -> Response {
     response
 }
 
-/// Slope of a law, relative to the stiffness of the body, below which it is hardly touched.
-const HARDLY: f64 = 1e-3;
-
 /// Penetrations of a body `[m]` among whose pressures one is looked for.
 const PENETRATIONS: [f64; 2] = [1e-18, 1e6];
 
@@ -173,7 +170,8 @@ fn press(laws: &Laws, gap: f64, at: &LawInput, unknown: bool) -> Response {
             at.worn.slope,
         ),
     };
-    let loose = -p.slope < HARDLY * at.stiffness.weight;
+    // A law with a smaller slope, relative to the stiffness of the body, is hardly touched.
+    let loose = -p.slope < 1e-3 * at.stiffness.weight;
     let p = match at.pressed && loose {
         true => under_load(normal, gap, at.stiffness.weight),
         false => p,

@@ -16,9 +16,6 @@ use crate::shape::ElementKind;
 /// Samples of a face along the distance of two places, in the plane and in space.
 const SAMPLES: [f64; 2] = [4.0, 2.0];
 
-/// Cosine of the angle between facets and their mean from which on a surface is not plane.
-const PLANE: f64 = 1.0 - 1e-6;
-
 /// Where the depth of such a primary is kept, and what of it lies beneath each point.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WearTrack {
@@ -201,7 +198,8 @@ impl WearTrack {
         let at: Vec<_> = at.collect();
         let sum = at.iter().fold([0.0; 3], |sum, p| add(sum, p.normal));
         let normal = normalize(sum)?;
-        let plane = at.iter().all(|p| dot(p.normal, normal) > PLANE);
+        // From this cosine of the angle between facets and their mean on a surface is not plane.
+        let plane = at.iter().all(|p| dot(p.normal, normal) > 1.0 - 1e-6);
         let chart = Chart::plane(at.first()?.x, normal, above.dim, above.finest());
         plane.then(|| Self::on(chart.along(direction), above, extent))
     }

@@ -24,9 +24,6 @@ pub(super) struct Placed<'a> {
 /// No active dof.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// Part of the candidates above which all of them are active: a cut would save less than it costs.
-const MOST: f64 = 0.7;
-
 /// A list may have this many times the dofs touched before it is made anew, and some more where they are few.
 const SLACK: usize = 2;
 const FEW: usize = 100;
@@ -56,7 +53,8 @@ impl Active {
     /// The active dofs for the candidates touched.
     pub fn new(condensation: &Condensation, touched: &[bool]) -> Active {
         let wanted = touched.iter().filter(|t| **t).count();
-        let whole = wanted as f64 > MOST * condensation.size() as f64;
+        // Above this part of the candidates all of them are active: a cut would save less than it costs.
+        let whole = wanted as f64 > 0.7 * condensation.size() as f64;
         let list: Vec<usize> = (0..touched.len())
             .filter(|&i| whole || touched[i])
             .collect();

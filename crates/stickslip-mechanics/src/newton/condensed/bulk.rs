@@ -140,9 +140,11 @@ impl Bulk for CondensedBulk<'_> {
         // More digits than these cost more than another iteration, unless next to nothing is solved.
         let asked = settings.linear_tolerance;
         let finest = match 3 * contact.blocks.len() {
-            0..=TINY => FINEST_TINY,
+            0..=TINY => 1e-13,
             SMALL.. => asked,
-            _ => FINEST_SMALL.min(asked),
+            // Where more rows are than need a factor in single precision it is what was asked for: with two digits while points change
+            // status a slab that is pressed on a plane came to no rest, each point slipping another way from iteration to iteration.
+            _ => 1e-5_f64.min(asked),
         };
         let tolerance = tolerance.max(finest);
         let solved = self.system.solve(
@@ -171,9 +173,3 @@ impl Bulk for CondensedBulk<'_> {
         }
     }
 }
-
-/// The finest relative residual of a linear solution where fewer rows are than need a factor in single precision, and where next to nothing is solved. Where
-/// there are more it is what was asked for: with two digits while points change status a slab that is pressed on a plane came to no rest, each point
-/// slipping another way from iteration to iteration.
-const FINEST_SMALL: f64 = 1e-5;
-const FINEST_TINY: f64 = 1e-13;

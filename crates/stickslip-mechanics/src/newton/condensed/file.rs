@@ -14,10 +14,10 @@ use crate::owner;
 const MAGIC: &[u8; 8] = b"slipsub\0";
 
 /// Version of the format.
-const FORMAT: u64 = 2;
+const FILE_FORMAT: u64 = 2;
 
 /// Bytes of the header: magic, format, version of the program, identity, length of what follows up to the digest.
-const HEADER: usize = 8 + 8 + VERSION + 16 + 8;
+const HEADER_BYTES: usize = 8 + 8 + VERSION + 16 + 8;
 
 /// Bytes of a version, padded with zeros.
 const VERSION: usize = 24;
@@ -26,7 +26,7 @@ const VERSION: usize = 24;
 const DIGEST: usize = 16;
 
 /// Bytes read, written and digested at a time.
-const CHUNK: usize = 1 << 18;
+const BYTES_AT_A_TIME: usize = 1 << 18;
 
 /// Kept dofs up to which a part without interior is not worth a file.
 pub(super) const TINY: usize = 12;
@@ -40,9 +40,9 @@ fn version() -> [u8; VERSION] {
 }
 
 fn header(identity: Identity, length: u64) -> Vec<u8> {
-    let mut bytes = Vec::with_capacity(HEADER);
+    let mut bytes = Vec::with_capacity(HEADER_BYTES);
     bytes.extend(MAGIC);
-    bytes.extend(FORMAT.to_le_bytes());
+    bytes.extend(FILE_FORMAT.to_le_bytes());
     bytes.extend(version());
     bytes.extend(identity.words().iter().flat_map(|w| w.to_le_bytes()));
     bytes.extend(length.to_le_bytes());
@@ -78,7 +78,7 @@ fn write_all(path: &Path, whole: Whole) -> io::Result<()> {
     let mut writer = Writer {
         file,
         digest,
-        buffer: Vec::with_capacity(CHUNK),
+        buffer: Vec::with_capacity(BYTES_AT_A_TIME),
     };
     encode(whole, &mut writer)?;
     writer.flush()?;
@@ -117,19 +117,21 @@ pub(super) fn read(
         Err(e) => return Err(e),
     };
     let all = file.metadata()?.len();
-    let mut begin = [0; HEADER];
+    let mut begin = [0; HEADER_BYTES];
     file.read_exact(&mut begin)
         .map_err(|_| invalid("it is cut short"))?;
     if !begin.starts_with(MAGIC) {
         return Err(invalid("it is something else"));
     }
-    let length = all.saturating_sub((HEADER + DIGEST) as u64);
+    let length = all.saturating_sub((HEADER_BYTES + DIGEST) as u64);
     let expected = header(identity, length);
     if begin != expected[..] {
         let made_alike = begin[..16 + VERSION] == expected[..16 + VERSION];
         return Err(invalid(match made_alike {
             false => "it was made by another version",
-            true if begin[..HEADER - 8] == expected[..HEADER - 8] => "it has another length",
+            true if begin[..HEADER_BYTES - 8] == expected[..HEADER_BYTES - 8] => {
+                "it has another length"
+            }
             true => "it is for something else",
         }));
     }
@@ -217,9 +219,9 @@ struct Writer {
 
 impl Write for Writer {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let taken = bytes.len().min(CHUNK - self.buffer.len());
+        let taken = bytes.len().min(BYTES_AT_A_TIME - self.buffer.len());
         self.buffer.extend_from_slice(&bytes[..taken]);
-        if self.buffer.len() == CHUNK {
+        if self.buffer.len() == BYTES_AT_A_TIME {
             self.flush()?;
         }
         Ok(taken)
@@ -248,7 +250,7 @@ struct Reader {
 
 impl Reader {
     fn fill(&mut self) -> io::Result<()> {
-        let length = self.left.min(CHUNK as u64) as usize;
+        let length = self.left.min(BYTES_AT_A_TIME as u64) as usize;
         self.buffer.resize(length, 0);
         self.at = 0;
         self.file.read_exact(&mut self.buffer)?;

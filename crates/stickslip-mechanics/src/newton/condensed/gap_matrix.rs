@@ -26,9 +26,6 @@ pub(super) struct GapMatrix {
     matrix: Compliance,
 }
 
-/// Part of the points whose gradients have to be those of the last solution before it pays to keep what they give.
-const SAME: f64 = 0.9;
-
 /// Rows that the matrix may have for each one that is used.
 const SLACK: usize = 2;
 
@@ -36,7 +33,8 @@ const SLACK: usize = 2;
 pub(super) fn hardly_change(keys: &[[u64; 2]], before: &[[u64; 2]]) -> bool {
     let before: HashSet<[u64; 2]> = before.iter().copied().collect();
     let same = keys.iter().filter(|&key| before.contains(key)).count();
-    same as f64 >= SAME * keys.len() as f64
+    // It pays to keep what the gradients give if these are those of the last solution at so many of the points.
+    same as f64 >= 0.9 * keys.len() as f64
 }
 
 impl Default for GapMatrix {

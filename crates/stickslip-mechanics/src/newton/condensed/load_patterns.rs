@@ -31,10 +31,7 @@ pub struct Amplitudes {
 }
 
 /// Most patterns of loads, and of motions, that are kept: a load that turns needs two or three.
-const MOST: usize = 24;
-
-/// What is left of a vector, relative to it, when it counts as made up of the patterns: rounding.
-const ROUNDING: f64 = 4e-15;
+const MOST_PATTERNS: usize = 24;
 
 /// The patterns met so far, without what the factors make of them.
 #[derive(Debug, Clone, Default, crate::keep::Keep)]
@@ -177,8 +174,9 @@ fn resolve(
         }
     }
     let rest = norm(&left);
-    if rest > ROUNDING * size {
-        let keep = patterns.len() < MOST;
+    // Less is left of a vector, relative to it, where it is made up of the patterns: rounding.
+    if rest > 4e-15 * size {
+        let keep = patterns.len() < MOST_PATTERNS;
         let size = if keep { rest } else { 1.0 };
         left.iter_mut().for_each(|l| *l /= size);
         let (root, interior) = sweep(&left)?;

@@ -33,9 +33,6 @@ pub(super) struct Factored {
     order: Option<Vec<usize>>,
 }
 
-/// Amplification `C W Bᵀ` up to which the factor may be in single precision: of its seven digits three are left.
-const SINGLE: f64 = 1e4;
-
 /// Rows up to which the factor is in double precision in any case: it costs next to nothing.
 pub(super) const SMALL: usize = 600;
 
@@ -153,7 +150,8 @@ fn single(matrix: &SmallMatrix) -> Option<Lu> {
         return None;
     }
     let (entries, amplification) = matrix.assemble::<f32>();
-    if amplification > SINGLE {
+    // Up to this amplification `C W Bᵀ` the factor may be in single precision: of its seven digits three are left.
+    if amplification > 1e4 {
         return None;
     }
     Lu::of(matrix.count + matrix.springs.len(), entries)

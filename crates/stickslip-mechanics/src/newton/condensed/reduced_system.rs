@@ -13,6 +13,7 @@ use crate::newton::failure::{not_finite, not_reached};
 use crate::newton::settings::Settings;
 use crate::newton::statistics::Statistics;
 use crate::system::{ContactBlock, StepFailure};
+use crate::tolerance::NEGLIGIBLE;
 
 /// Solves `(I + K W) y = …` for the forces at the dofs that interfaces touch.
 ///
@@ -41,9 +42,6 @@ pub struct ReducedSolution {
     /// Krylov iterations.
     pub iterations: usize,
 }
-
-/// Residual relative to the right-hand side that counts as solved if the factor is fresh.
-const ROUNDING: f64 = 1e-6;
 
 /// The finest tolerance of an iteration, and the coarsest.
 const TOLERANCES: (f64, f64) = (1e-14, 0.1);
@@ -370,7 +368,7 @@ fn solve_preconditioned(
         }
         // With a fresh factor and double precision what is left is rounding: whether it is too much shows in the forces.
         let last = attempt.next().is_none();
-        let rounding = last && report.relative_residual <= ROUNDING;
+        let rounding = last && report.relative_residual <= NEGLIGIBLE;
         if report.converged || rounding {
             if report.iterations > patience {
                 *kept = None;

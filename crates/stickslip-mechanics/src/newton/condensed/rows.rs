@@ -41,9 +41,6 @@ impl Tied {
     }
 }
 
-/// Part of a change of forces that may be left over: rounding.
-const UNTIED: f64 = 1e-10;
-
 impl Rows {
     /// The rows of all points that have any, and how many there are.
     pub fn of(blocks: &[Placed]) -> (Vec<Rows>, usize) {
@@ -131,7 +128,8 @@ impl Rows {
                 let made: f64 = s.iter().zip(&b).map(|(s, b)| s * b[i]).sum();
                 (c - made).abs()
             });
-            if left.fold(0.0, f64::max) > UNTIED * size {
+            // A smaller part of a change of forces that is left over is rounding.
+            if left.fold(0.0, f64::max) > 1e-10 * size {
                 return None;
             }
         }

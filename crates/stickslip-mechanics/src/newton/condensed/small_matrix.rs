@@ -15,7 +15,7 @@ use crate::math::vector::dot;
 
 /// Columns that are made together. Points beside each other share most of their nodes: a product of matrices takes each column of the compliance once for all
 /// of them, and rows of it serve as many columns with one instruction.
-const COLUMNS: usize = 16;
+const COLUMNS_TOGETHER: usize = 16;
 
 /// What the matrix is made of: `[[I + C W Bᵀ, -C Z], [σ Zᵀ Bᵀ, I - σ Rᵀ Z]]`.
 pub(super) struct SmallMatrix<'a> {
@@ -38,19 +38,19 @@ struct Block<'a> {
 
 impl Block<'_> {
     /// `W Bᵀ` at all active dofs, by dof. Zero columns fill it up.
-    fn compliance_product<T: Entry>(&self, tangent: &Tangent) -> Vec<[T; COLUMNS]> {
+    fn compliance_product<T: Entry>(&self, tangent: &Tangent) -> Vec<[T; COLUMNS_TOGETHER]> {
         let Tangent {
             condensation,
             active,
             ..
         } = tangent;
-        let mut out = vec![[T::of(0.0); COLUMNS]; active.len()];
+        let mut out = vec![[T::of(0.0); COLUMNS_TOGETHER]; active.len()];
         let entries = self.entries::<T>();
         let mut wide = Vec::new();
         for part in 0..condensation.parts.len() {
             let (start, end) = (active.starts[part], active.starts[part + 1]);
             let own = entries.range(start..end);
-            let coefficients: Vec<[T; COLUMNS]> = own.clone().map(|(_, b)| *b).collect();
+            let coefficients: Vec<[T; COLUMNS_TOGETHER]> = own.clone().map(|(_, b)| *b).collect();
             if coefficients.is_empty() {
                 continue;
             }
@@ -65,14 +65,14 @@ impl Block<'_> {
                 MatMut::from_row_major_slice_mut(
                     out[start..end].as_flattened_mut(),
                     end - start,
-                    COLUMNS,
+                    COLUMNS_TOGETHER,
                 ),
                 Accum::Replace,
                 MatRef::from_column_major_slice(&wide, end - start, coefficients.len()),
                 MatRef::from_row_major_slice(
                     coefficients.as_flattened(),
                     coefficients.len(),
-                    COLUMNS,
+                    COLUMNS_TOGETHER,
                 ),
                 T::of(1.0),
                 Par::Seq,
@@ -82,11 +82,11 @@ impl Block<'_> {
     }
 
     /// Entries of the columns by active dof.
-    fn entries<T: Entry>(&self) -> BTreeMap<usize, [T; COLUMNS]> {
+    fn entries<T: Entry>(&self) -> BTreeMap<usize, [T; COLUMNS_TOGETHER]> {
         let mut entries = BTreeMap::new();
         for (k, &(rows, q)) in self.columns.iter().enumerate() {
             for (at, b) in rows.gradient(q).filter(|(_, b)| *b != 0.0) {
-                let row = entries.entry(at).or_insert([T::of(0.0); COLUMNS]);
+                let row = entries.entry(at).or_insert([T::of(0.0); COLUMNS_TOGETHER]);
                 row[k] += T::of(b);
             }
         }
@@ -97,11 +97,11 @@ impl Block<'_> {
 /// The same with a compliance that an engine has: all columns go there at once.
 fn elsewhere<'a, T: Entry + 'a>(
     w: &Compliance,
-    entries: impl Iterator<Item = (usize, &'a [T; COLUMNS])>,
-    out: &mut [[T; COLUMNS]],
+    entries: impl Iterator<Item = (usize, &'a [T; COLUMNS_TOGETHER])>,
+    out: &mut [[T; COLUMNS_TOGETHER]],
 ) {
     let n = out.len();
-    let mut x = vec![0.0; n * COLUMNS];
+    let mut x = vec![0.0; n * COLUMNS_TOGETHER];
     for (at, row) in entries {
         for (k, b) in row.iter().enumerate() {
             x[k * n + at] = b.to();
@@ -132,8 +132,8 @@ impl SmallMatrix<'_> {
         let mut matrix = Vec::with_capacity(size * size);
         matrix.resize(size * self.count, T::of(0.0));
         matrix
-            .par_chunks_mut(COLUMNS * size.max(1))
-            .zip(columns.par_chunks(COLUMNS))
+            .par_chunks_mut(COLUMNS_TOGETHER * size.max(1))
+            .zip(columns.par_chunks(COLUMNS_TOGETHER))
             .for_each(|(out, columns)| self.columns(&Block { columns }, out));
         let mut amplification = 0.0_f64;
         for k in 0..self.count {
@@ -154,7 +154,7 @@ impl SmallMatrix<'_> {
             of_point.map(|changes| (&rows.at, changes))
         });
         for (row, (at, changes)) in changes.enumerate() {
-            let mut sums = [T::of(0.0); COLUMNS];
+            let mut sums = [T::of(0.0); COLUMNS_TOGETHER];
             for (at, c) in at_active(at, changes) {
                 let c = T::of(c);
                 for (sum, p) in sums.iter_mut().zip(&product[at]) {

@@ -77,10 +77,6 @@ impl Floating {
     }
 }
 
-/// Stiffness against a rigid motion, relative to the mean of the diagonal, below which artificial springs are added. They are exactly taken away
-/// again: more of them than needed do no harm.
-const SOFT: f64 = 1e-6;
-
 /// What holds motions of a part that nothing else does.
 #[derive(Clone, Copy)]
 pub struct ArtificialSprings<'a> {
@@ -224,7 +220,9 @@ fn free_motions(
         parts.flat_map(of_part).collect()
     };
     let basis = orthonormal(motions);
-    let soft = softest(&basis, &stiffness.products(&basis)?, SOFT * sigma);
+    // Artificial springs are added where the stiffness against a rigid motion is below this part of the mean of the diagonal. They are
+    // exactly taken away again: more of them than needed do no harm.
+    let soft = softest(&basis, &stiffness.products(&basis)?, 1e-6 * sigma);
     Ok((!soft.is_empty()).then_some((soft, sigma)))
 }
 

@@ -6,6 +6,7 @@ use super::active::{Active, NONE, Placed};
 use super::condensation::Condensation;
 use super::rows::Rows;
 use crate::math::vector::{dot, norm};
+use crate::tolerance::SAME;
 
 /// One artificial spring of a floating part.
 pub(super) struct Spring<'a> {
@@ -38,9 +39,6 @@ impl Precision {
         }
     }
 }
-
-/// Part of a load that may be elsewhere than at the active dofs without its counting: rounding.
-const ELSEWHERE: f64 = 1e-9;
 
 /// The system of one iteration. Vectors hold forces at the active dofs, then one for each artificial spring.
 pub(super) struct Tangent<'a> {
@@ -99,7 +97,7 @@ impl Tangent<'_> {
         let active: Vec<f64> = self.active.list.iter().map(|&i| b[i]).collect();
         let all = norm(b);
         let rest = (all * all - dot(&active, &active)).max(0.0).sqrt();
-        if rest <= ELSEWHERE * all {
+        if rest <= SAME * all {
             return self.apply_compliance(&active, Precision::Double);
         }
         let u = self.condensation.apply_compliance(b);

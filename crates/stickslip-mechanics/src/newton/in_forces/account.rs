@@ -5,17 +5,14 @@ use crate::friction::{FrictionProblem, Solution, Tried, natural_map};
 use crate::math::vector;
 use crate::system::{Culprit, Otherwise, StepFailure};
 
-/// Error to which friction problems are solved.
-pub(super) const ERROR: f64 = 1e-8;
+/// Error to which friction problems are solved. It is the default of `solver.tolerance`.
+pub(super) const FRICTION_ERROR: f64 = 1e-8;
 
 /// Most points that a failure names.
 const NAMED: usize = 5;
 
 /// What stands for a solver where none was needed.
 const FIRST_GUESS: &str = "first guess";
-
-/// The last step over the first one above which bodies go on moving.
-const MOVING: f64 = 0.5;
 
 /// What has come of the friction problems of an increment.
 #[derive(Default)]
@@ -120,7 +117,7 @@ impl Account {
                 let each = tried.iter().map(|t| format!("{} {:.1e}", t.solver, t.error));
                 Otherwise {
                     message: format!(
-                        "as a friction problem of {points} points{several} it is not solved either; errors where {ERROR:.0e} is wanted: {}",
+                        "as a friction problem of {points} points{several} it is not solved either; errors where {FRICTION_ERROR:.0e} is wanted: {}",
                         each.collect::<Vec<_>>().join(", ")
                     ),
                     culprits: named(parts, &|part| format!("{part:.1e} of the friction problem's error")),
@@ -129,7 +126,8 @@ impl Account {
             }
             End::Restless(changes) => {
                 let change = changes.first().map_or(0.0, |c| c.1);
-                let moving = self.steps.filter(|[first, last]| *last > MOVING * *first);
+                // Bodies go on moving if the last step is more than half of the first.
+                let moving = self.steps.filter(|[first, last]| *last > 0.5 * *first);
                 let moves = moving.map_or(String::new(), |[first, last]| {
                     format!("; from one to the next the bodies still move, by {last:.1e} after {first:.1e} at first: there may be no equilibrium")
                 });
@@ -197,7 +195,7 @@ mod tests {
             free: vec![-1.0, 0.1, -1.0, 0.0],
             laws: vec![PointLaw::coulomb(0.3); 2],
         };
-        let solution = solve(&problem, None, ERROR);
+        let solution = solve(&problem, None, FRICTION_ERROR);
         assert!(!solution.solved);
         let mut account = Account::default();
         account.note(problem, &[(0, 4), (2, 7)], &solution);

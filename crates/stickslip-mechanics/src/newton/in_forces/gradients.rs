@@ -5,9 +5,6 @@ use std::collections::BTreeMap;
 use super::place::Place;
 use crate::math::{Mat3, inverse};
 
-/// Part of gradients that may be none of those before.
-const OTHER: f64 = 0.1;
-
 /// Gradients of the gap and of both slips of a point by dof, row by row.
 #[derive(Debug)]
 pub(super) struct Gradients {
@@ -65,6 +62,7 @@ impl Gradients {
         for a in (0..3).filter(|&a| none[a]) {
             turn[a][a] = 1.0;
         }
-        (size - met <= OTHER * OTHER * size).then_some(turn)
+        // Up to a tenth of the gradients may be none of those before.
+        (size - met <= 0.1 * 0.1 * size).then_some(turn)
     }
 }

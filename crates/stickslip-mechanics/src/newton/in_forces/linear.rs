@@ -5,9 +5,9 @@ use crate::newton::attempt::Attempt;
 use crate::newton::settings::Settings;
 use crate::system::{Assembler, Cause, StepFailure};
 
-/// Residual to which its solutions are found, and by how much more is left where rounding keeps a solution from that.
-pub(super) const COLUMN: f64 = 1e-9;
-const COARSER: f64 = 10.0;
+/// Residual to which its solutions are found, relative to the right-hand side. It is a tenth of the error to which friction problems are
+/// solved.
+pub(super) const COLUMN_RESIDUAL: f64 = 1e-9;
 
 /// The linear problem of one pass.
 pub(super) struct Linear<'a, 'b, 's> {
@@ -49,7 +49,8 @@ impl Linear<'_, '_, '_> {
                 Err(failure)
                     if failure.cause == Cause::LinearSolver && self.tolerance < coarsest =>
                 {
-                    self.tolerance = (COARSER * self.tolerance).min(coarsest);
+                    // Ten times as much is left where rounding keeps a solution from its residual.
+                    self.tolerance = (10.0 * self.tolerance).min(coarsest);
                 }
                 solved => {
                     solved?;

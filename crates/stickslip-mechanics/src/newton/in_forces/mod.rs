@@ -22,14 +22,12 @@ use super::equilibrium::{equilibrium, stalled};
 use super::progress::Converged;
 use super::rounds::rounds;
 use crate::system::{Cause, StepFailure};
+use crate::tolerance::NEGLIGIBLE;
 pub(super) use account::Account;
 use columns::Columns;
 use pass::{Pass, Points};
 use place::Found;
 use relaxation::Relaxation;
-
-/// Change of the forces from one problem to the next, relative to their size, that counts as none.
-const SETTLED: f64 = 1e-6;
 
 /// Equilibria by friction problems, one after the other as [`rounds`] asks for them, where Newton's method has failed for some cause; `None` where it is not
 /// for them.
@@ -103,5 +101,5 @@ fn settled(last: &[Found], next: &[Found]) -> bool {
         .iter()
         .zip(next)
         .flat_map(|(a, b)| (0..3).map(|q| (a.1[q] - b.1[q]).abs()));
-    same && changes.fold(0.0, f64::max) <= SETTLED * size
+    same && changes.fold(0.0, f64::max) <= NEGLIGIBLE * size
 }

@@ -2,16 +2,13 @@
 
 use super::account::Account;
 use super::columns::{Columns, MOST_UNKNOWNS};
-use super::linear::{COLUMN, Linear};
+use super::linear::{COLUMN_RESIDUAL, Linear};
 use super::place::{At, Found, Place};
 use super::relaxation::Relaxation;
 use super::search::search;
 use crate::newton::attempt::Attempt;
 use crate::newton::balance::transfer;
 use crate::system::{Assembler, ContactBlock, Stage, StepFailure};
-
-/// Stiffness by which a point is held where it is, relative to that of the body beneath: that of anchors.
-const HOLD: f64 = 1e-3;
 
 /// What is known of points from the attempt that failed.
 pub(super) struct Points {
@@ -48,7 +45,8 @@ impl<'a, 'b, 's> Pass<'a, 'b, 's> {
         held.couplings = out.couplings;
         held.pairs = out.pairs;
         for place in &places {
-            place.hold(HOLD * place.alone.body, &mut held);
+            // A point is held where it is by the stiffness of an anchor, relative to that of the body beneath.
+            place.hold(1e-3 * place.alone.body, &mut held);
         }
         let mut rest = vec![0.0; n];
         attempt.system.bulk.forces(&attempt.at.u, &mut rest);
@@ -57,7 +55,7 @@ impl<'a, 'b, 's> Pass<'a, 'b, 's> {
                 attempt,
                 held,
                 rest,
-                tolerance: COLUMN,
+                tolerance: COLUMN_RESIDUAL,
             },
             places,
             counts,

@@ -1,17 +1,11 @@
 //! The solution of the friction problem of one pass.
 
-use super::account::{Account, ERROR};
+use super::account::{Account, FRICTION_ERROR};
 use super::columns::Columns;
 use super::linear::Linear;
 use super::place::{At, Place};
 use crate::friction::{map, solve};
 use crate::system::{Cause, StepFailure};
-
-/// Part of the error that a solution with kept columns may leave; otherwise they are made anew.
-const GAIN: f64 = 0.5;
-
-/// Part of the error of the forces before that is good enough for a pass: the next one begins where this one ends.
-const ENOUGH: f64 = 1e-3;
 
 /// Forces that solve the friction problem of these points, and the displacements under them; `free` are forces by dof, and `alone` the displacements
 /// under these alone.
@@ -37,10 +31,12 @@ pub(super) fn search(
     loop {
         let problem = columns.problem(chosen, &forces, &du);
         let error = map::error(&problem, &forces);
-        let enough = ENOUGH * *first.get_or_insert(error);
-        let done = before.is_finite() && error <= enough.max(ERROR);
-        let falls = error <= GAIN * before;
-        let solution = (!done && falls).then(|| solve(&problem, Some(&forces), ERROR));
+        // Such a part of the error of the forces before is good enough for a pass: the next one begins where this one ends.
+        let enough = 1e-3 * *first.get_or_insert(error);
+        let done = before.is_finite() && error <= enough.max(FRICTION_ERROR);
+        // A solution with kept columns may leave half of the error; otherwise they are made anew.
+        let falls = error <= 0.5 * before;
+        let solution = (!done && falls).then(|| solve(&problem, Some(&forces), FRICTION_ERROR));
         if let Some(solution) = &solution {
             account.note(problem, &points, solution);
         }

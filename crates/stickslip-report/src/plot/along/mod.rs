@@ -141,7 +141,7 @@ fn is_table(file: &Path) -> bool {
 }
 
 /// Drawings of at most this many interfaces go into a report.
-const MOST: usize = 24;
+const MOST_DRAWINGS: usize = 24;
 
 /// What each interface carries when contact presses most, as SVG.
 pub(crate) fn drawings(results: &Results) -> Result<Vec<String>, Error> {
@@ -151,7 +151,7 @@ pub(crate) fn drawings(results: &Results) -> Result<Vec<String>, Error> {
     let frame = results.of_peak()?;
     let size = [1000, 520];
     let mut out = Vec::new();
-    for sheet in results.sheets(frame)?.iter().take(MOST) {
+    for sheet in results.sheets(frame)?.iter().take(MOST_DRAWINGS) {
         let time = axis::number(results.frames[frame].time, 4);
         let page = Page {
             title: sheet.name.clone(),

@@ -11,10 +11,6 @@ use super::arc::Arc;
 use crate::results::{Results, fault};
 use crate::sheet::Sheet;
 
-/// Part of the largest value from which on a place is part of what is seen, and how much of the width lies to each side of that.
-const SEEN: f64 = 1e-3;
-const MARGIN: f64 = 0.1;
-
 /// The table: length along the surface, and a column a time.
 ///
 /// # Errors
@@ -118,10 +114,12 @@ fn values(sheet: &Sheet, points: &[usize], places: &[[f64; 3]], field: &str) -> 
 fn part(table: &Table) -> Option<[f64; 2]> {
     let (lengths, lines) = table.columns.split_first()?;
     let largest = lines.iter().flatten().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let is_seen = |i: usize| lines.iter().any(|line| line[i].abs() > SEEN * largest);
+    // Part of the largest value from which on a place is part of what is seen.
+    let is_seen = |i: usize| lines.iter().any(|line| line[i].abs() > 1e-3 * largest);
     let first = (0..lengths.len()).find(|&i| is_seen(i))?;
     let last = (0..lengths.len()).rfind(|&i| is_seen(i))?;
     let (from, to) = (lengths[first], lengths[last]);
-    let margin = MARGIN * (to - from);
+    // A tenth of the width lies to each side of that.
+    let margin = 0.1 * (to - from);
     (margin > 0.0).then_some([from - margin, to + margin])
 }

@@ -9,9 +9,6 @@ fn dot(a: Vec3, b: Vec3) -> f64 {
     (0..3).map(|c| a[c] * b[c]).sum()
 }
 
-/// How much of the area has to face one side for a plan.
-const FACES: f64 = 0.5;
-
 /// How a surface is laid into a plane.
 enum Lay {
     /// In plan, with these directions to the right and up.
@@ -27,7 +24,8 @@ enum Lay {
 fn lay(sheet: &Sheet) -> Lay {
     let x = &sheet.grid.points.points;
     let (mean, spread, area) = normals(sheet);
-    if dot(mean, mean).sqrt() > FACES * area || area <= 0.0 {
+    // Half of the area has to face one side for a plan.
+    if dot(mean, mean).sqrt() > 0.5 * area || area <= 0.0 {
         let out = if area > 0.0 {
             unit(mean)
         } else {

@@ -3,7 +3,7 @@
 use super::finding::{DoctorCause, Finding};
 use super::friction::friction_coefficient;
 use super::places;
-use super::surfaces::Opposite;
+use super::surfaces::{FACING_COSINE, Opposite};
 use super::suspect::Suspect;
 use crate::assess::view::View;
 use crate::contact::interface::Primary;
@@ -11,18 +11,7 @@ use crate::math::{Vec3, add, add_scaled, dot, norm, normalize, scale, vector};
 use crate::model::definition::Body;
 use crate::model::rigid::modes::modes;
 use crate::model::scene::Scene;
-
-/// Cosine between outward normals below which two places face each other.
-const FACING: f64 = -0.3;
-
-/// Cosine between contact normals that make a flat surface.
-const FLAT: f64 = 0.999;
-
-/// Part of the limit of friction that is rounding.
-const SLIGHT: f64 = 1e-6;
-
-/// Part of the loads that counts as none.
-const NONE: f64 = 1e-9;
+use crate::tolerance::{NEGLIGIBLE, SAME};
 
 /// Directions in which contact can push one body.
 #[derive(Default)]
@@ -35,12 +24,12 @@ struct Push {
 
 /// Bodies without supports, springs and couplings to others on which the loads at time `t` and contact cannot be in balance.
 pub(super) fn unbalanced(view: &View, t: f64) -> Option<Finding> {
-    beyond(view, t, SLIGHT)
+    beyond(view, t, NEGLIGIBLE)
 }
 
 /// The same of loads that come to the limit of friction, where nothing is left to hold a body.
 pub(super) fn at_limit(view: &View, t: f64) -> Option<Finding> {
-    beyond(view, t, -SLIGHT)
+    beyond(view, t, -NEGLIGIBLE)
 }
 
 fn beyond(view: &View, t: f64, slight: f64) -> Option<Finding> {
@@ -70,7 +59,7 @@ fn beyond(view: &View, t: f64, slight: f64) -> Option<Finding> {
         let own = modes.iter().filter(|m| m.body == index);
         let coupled = own
             .into_iter()
-            .any(|m| rows.iter().any(|row| m.along(model, row).abs() > NONE));
+            .any(|m| rows.iter().any(|row| m.along(model, row).abs() > SAME));
         if sprung || coupled || dofs.iter().any(|&dof| held[dof]) {
             continue;
         }
@@ -96,7 +85,7 @@ fn beyond(view: &View, t: f64, slight: f64) -> Option<Finding> {
             mean,
             narrowest,
             force,
-            NONE * scale_of_loads,
+            SAME * scale_of_loads,
             slight,
         );
         if let Some((cause, message)) = found {
@@ -139,7 +128,8 @@ fn judge(
             )
         });
     }
-    if narrowest < FLAT {
+    // Contact normals with a narrower cosine between them make no flat surface.
+    if narrowest < 0.999 {
         return None;
     }
     let pressing = -dot(force, mean);
@@ -193,7 +183,7 @@ fn push(scene: &Scene, body: &Body, t: f64) -> Option<Push> {
             let Some(nearest) = opposite.nearest(p.position(&interface.reference)) else {
                 continue;
             };
-            if dot(nearest.normal, p.normal) < FACING {
+            if dot(nearest.normal, p.normal) < FACING_COSINE {
                 push.directions.push(scale(sign, nearest.normal));
             }
         }
@@ -219,12 +209,13 @@ mod tests {
             ..Push::default()
         };
         let up = [0.0, 1.0, 0.0];
-        let cause = |force: Vec3| judge("block", &push, up, 1.0, force, 1e-9, SLIGHT).map(|f| f.0);
+        let cause =
+            |force: Vec3| judge("block", &push, up, 1.0, force, 1e-9, NEGLIGIBLE).map(|f| f.0);
         assert_eq!(cause([0.29, -1.0, 0.0]), None);
         assert_eq!(cause([0.31, -1.0, 0.0]), Some(DoctorCause::SlidesAway));
         assert_eq!(cause([0.0, 0.1, 0.0]), Some(DoctorCause::SlidesAway));
         assert_eq!(cause([0.0; 3]), Some(DoctorCause::FreeRigidMode));
         // A seat that holds from both sides.
-        assert!(judge("pin", &push, up, -0.2, [0.0; 3], 1e-9, SLIGHT).is_none());
+        assert!(judge("pin", &push, up, -0.2, [0.0; 3], 1e-9, NEGLIGIBLE).is_none());
     }
 }

@@ -23,6 +23,7 @@ mod suspect;
 mod unjoined;
 mod watch;
 
+pub use check::WIDEST_CONTACT;
 pub use finding::{DoctorCause, Finding, MOST_GUILTY};
 pub use suspect::{LocationKind, Severity, Suspect};
 
@@ -31,7 +32,7 @@ pub(crate) use culprits::write as write_culprits;
 pub(crate) use diagnose::{MORE_MEMORY, diagnose, singular_help, stopped};
 pub(crate) use places::body as body_at;
 pub(crate) use record::{Counters, mistake, note};
-pub(crate) use surfaces::Opposite;
+pub(crate) use surfaces::{FACING_COSINE, Opposite};
 pub(crate) use unjoined::MissingInterface;
 pub use watch::Peak;
 pub(crate) use watch::{Watch, watched};

@@ -9,7 +9,7 @@ use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::contact::response::Status;
 use crate::math::Vec3;
 use crate::model::definition::Model;
-use crate::model::rigid::held::HELD;
+use crate::model::rigid::held::NO_RESISTANCE;
 use crate::model::rigid::modes::{Mode, modes};
 use crate::model::rigid::null_space;
 
@@ -73,7 +73,7 @@ pub(super) fn floating(view: &View, t: f64, rows: &[Row]) -> Vec<FloatingBody> {
         })
         .collect();
     let mut out = Vec::new();
-    for motion in null_space(&gram, HELD).0 {
+    for motion in null_space(&gram, NO_RESISTANCE).0 {
         let share = |i: usize| motion[i].abs();
         let Some(first) = (0..count).max_by(|&i, &j| share(i).total_cmp(&share(j))) else {
             continue;

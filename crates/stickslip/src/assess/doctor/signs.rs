@@ -3,19 +3,10 @@
 use super::finding::{DoctorCause, Finding};
 use super::suspect::Suspect;
 use crate::assess::view::View;
-use crate::contact::interface::{InterfaceDefinition, Primary};
+use crate::contact::interface::{InterfaceDefinition, LARGE_SLIP, Primary};
 use crate::math::{Vec3, add_scaled, dot, norm, sub};
 use crate::system::Evidence;
 use crate::time::Trial;
-
-/// Status changes of a point in one attempt that count as chatter.
-const CHATTER: f64 = 4.0;
-
-/// How often a point has left the edge of the primary that has lost its projection.
-const LEFT: f64 = 2.0;
-
-/// Slip over an increment relative to the facet that is too large.
-const FAR: f64 = 0.5;
 
 /// What the guilty points show by themselves, the rarest sign first.
 pub(super) fn signs(evidence: &[&Evidence]) -> Option<Finding> {
@@ -32,7 +23,8 @@ pub(super) fn signs(evidence: &[&Evidence]) -> Option<Finding> {
             finding.advise("smooth the table of the law by more rows, or take smaller increments"),
         );
     }
-    if let Some((left, e)) = worst(&|e| e.left as f64).filter(|w| w.0 >= LEFT) {
+    // A point that has left the edge of the primary twice has lost its projection.
+    if let Some((left, e)) = worst(&|e| e.left as f64).filter(|w| w.0 >= 2.0) {
         let finding = DoctorCause::LostProjection.warning(format!(
             "points of interface {} leave the outer edge of the primary and come back, up to {left} times",
             e.interface
@@ -47,10 +39,11 @@ pub(super) fn signs(evidence: &[&Evidence]) -> Option<Finding> {
         true => e.slip / e.facet,
         false => 0.0,
     };
-    if let Some((slip, e)) = worst(&slid).filter(|w| w.0 > FAR) {
+    if let Some((slip, e)) = worst(&slid).filter(|w| w.0 > LARGE_SLIP) {
         return Some(too_large_slip(slip, &e.interface));
     }
-    let (flips, e) = worst(&|e| e.flips as f64).filter(|w| w.0 >= CHATTER)?;
+    // Four status changes of a point in one attempt count as chatter.
+    let (flips, e) = worst(&|e| e.flips as f64).filter(|w| w.0 >= 4.0)?;
     let finding = DoctorCause::Chatter.warning(format!(
         "points of interface {} go back and forth, the worst with {flips} changes of status ({})",
         e.interface,
@@ -106,7 +99,7 @@ pub(super) fn prescribed_slip(view: &View, trial: &Trial) -> Option<(f64, String
         Some((norm(along) / size, interface.name.clone()))
     });
     let largest = slips.max_by(|a, b| a.0.total_cmp(&b.0));
-    largest.filter(|s| s.0 > FAR)
+    largest.filter(|s| s.0 > LARGE_SLIP)
 }
 
 #[cfg(test)]

@@ -7,9 +7,10 @@ use crate::contact::search::Tree;
 use crate::contact::surface::Facet;
 use crate::math::{Vec3, distance, dot, sub};
 use crate::shape::ElementKind;
+use crate::tolerance::NEGLIGIBLE;
 
-/// Part of a distance that rounding may put to the side.
-const BESIDE: f64 = 1e-6;
+/// Cosine between outward normals below which two places face each other. Tuned.
+pub(crate) const FACING_COSINE: f64 = -0.3;
 
 /// What lies nearest to a point.
 #[derive(Debug, Clone, Copy)]
@@ -68,7 +69,7 @@ impl<'a> Opposite<'a> {
         let nodes = coordinates(self.interface, facet);
         let xi = within(facet.kind, nearest.xi);
         let edge = evaluate(facet.kind, &nodes, xi).x;
-        (aside > BESIDE * distance(x, edge)).then_some(edge)
+        (aside > NEGLIGIBLE * distance(x, edge)).then_some(edge)
     }
 
     /// What lies nearest to a place, whichever way it faces.

@@ -13,6 +13,7 @@ use crate::contact::look;
 use crate::contact::look::{Resolution, Resultant};
 use crate::math::Vec3;
 use crate::model::Body;
+use crate::tolerance::{NEGLIGIBLE, SAME};
 
 /// What is remembered of an interface.
 #[derive(Debug, Clone, Default, crate::keep::Keep)]
@@ -45,25 +46,6 @@ pub struct Peak {
     pub time: f64,
 }
 
-/// What a pressure has to exceed the largest so far by, as a part of it: one that stays as it is differs by rounding from increment to increment.
-const LARGER: f64 = 1e-9;
-
-/// Turn of normals worth a word: shear over pressure is off by as much.
-const TURNED: f64 = 0.02;
-
-/// Slope of a scar, and its depth over the radius of the surface, from which it is no small change of the surface.
-const STEEP: f64 = 0.1;
-const DEEP: f64 = 1e-2;
-
-/// Part of the force that has to be carried where contact is three points across.
-const RESOLVED: f64 = 0.5;
-
-/// Part of its largest force with which an interface carries nothing any more: what the tolerance of Newton's method leaves.
-const NEXT_TO_NOTHING: f64 = 1e-6;
-
-/// Part of the force that the displacements would make as strains below which a force is rounding.
-const NOTHING: f64 = 1e-11;
-
 impl Watch {
     /// The largest pressure so far.
     pub fn peak(&self) -> Peak {
@@ -73,7 +55,8 @@ impl Watch {
     /// Looks at the last accepted state, of which `r` are the forces.
     pub fn note(&mut self, interface: ContactView, r: &Resultant, u: &[f64], t: f64) {
         let force = r.carried;
-        if r.peak > (1.0 + LARGER) * self.peak.value {
+        // A pressure that stays as it is differs by rounding from increment to increment.
+        if r.peak > (1.0 + SAME) * self.peak.value {
             self.peak = Peak {
                 value: r.peak,
                 at: r.peak_at,
@@ -86,7 +69,8 @@ impl Watch {
             self.turn = turn;
             self.turned_at = t;
         }
-        if force > NEXT_TO_NOTHING * self.force {
+        // An interface with less of its largest force carries nothing any more: the tolerance of Newton's method leaves as much.
+        if force > NEGLIGIBLE * self.force {
             self.carried_at = t;
             self.carriers = look::closed(interface);
         }
@@ -102,7 +86,8 @@ impl Watch {
 pub(crate) fn watched(view: &View, watches: &[Watch]) -> Vec<Finding> {
     let interfaces = view.contacts();
     let pairs = interfaces.zip(watches);
-    let nothing = NOTHING * quality::strain_force(view);
+    // A force below this part of what the displacements would make as strains is rounding.
+    let nothing = 1e-11 * quality::strain_force(view);
     let mut out = strained(view);
     out.extend(
         pairs
@@ -150,7 +135,8 @@ fn strained(view: &View) -> Vec<Finding> {
 }
 
 fn turned(interface: &InterfaceDefinition, watch: &Watch) -> Option<Finding> {
-    if watch.turn <= TURNED {
+    // A larger turn of normals is worth a word: shear over pressure is off by as much.
+    if watch.turn <= 0.02 {
         return None;
     }
     let name = &interface.name;
@@ -173,10 +159,12 @@ fn turned(interface: &InterfaceDefinition, watch: &Watch) -> Option<Finding> {
 fn deep(interface: ContactView) -> Option<Finding> {
     let profile = look::wear_profile(interface)?;
     let mut said = Vec::new();
-    if profile.slope > STEEP {
+    // A scar of a larger slope is no small change of the surface.
+    if profile.slope > 0.1 {
         said.push(format!("has a slope of up to {:.2}", profile.slope));
     }
-    if profile.curved > DEEP {
+    // Nor is one of a larger depth over the radius of the surface.
+    if profile.curved > 1e-2 {
         said.push(format!(
             "is up to {:.3} of the radius of the surface deep",
             profile.curved
@@ -245,7 +233,8 @@ fn never_carried(interface: &InterfaceDefinition, moves: bool) -> Finding {
 }
 
 fn coarse(interface: &InterfaceDefinition, watch: &Watch) -> Option<Finding> {
-    let found = watch.resolution.filter(|r| r.resolved < RESOLVED)?;
+    // Half of the force has to be carried where contact is three points across.
+    let found = watch.resolution.filter(|r| r.resolved < 0.5)?;
     let name = &interface.name;
     let points = match found.points {
         1 => "1 point".to_string(),

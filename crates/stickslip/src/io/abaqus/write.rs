@@ -15,7 +15,7 @@ use super::types::Space;
 const ENTRIES: usize = 16;
 
 /// Characters of a number that CalculiX reads.
-const WIDTH: usize = 20;
+const NUMBER_WIDTH: usize = 20;
 
 /// Characters of a name.
 const LABEL: usize = 80;
@@ -111,13 +111,13 @@ fn type_name(kind: ElementKind, plane: Space) -> String {
 /// A number in no more characters than are read: the shortest text of the same number, or as many digits as fit.
 fn number(x: f64) -> String {
     let exact = format!("{x:?}");
-    if exact.len() <= WIDTH {
+    if exact.len() <= NUMBER_WIDTH {
         return exact;
     }
     let fits = (0..=16)
         .rev()
         .map(|digits| format!("{x:.digits$e}"))
-        .find(|text| text.len() <= WIDTH);
+        .find(|text| text.len() <= NUMBER_WIDTH);
     fits.unwrap_or(exact)
 }
 

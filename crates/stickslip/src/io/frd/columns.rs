@@ -1,24 +1,22 @@
 //! Numbers in columns.
 
 /// Characters of a value.
-pub(super) const WIDTH: usize = 12;
-
-/// What is smaller has an exponent that takes one column more than there is.
-const SMALLEST: f64 = 1e-99;
+pub(super) const VALUE_WIDTH: usize = 12;
 
 /// Adds a value in twelve columns, ` 1.23450E-01`; beyond `1e100` it has fewer digits.
 pub(super) fn push_value(out: &mut Vec<u8>, x: f64) {
     let text = match x {
         _ if x.is_nan() => "NaN".to_string(),
         _ if x.is_infinite() => if x > 0.0 { "Inf" } else { "-Inf" }.to_string(),
-        _ if x.abs() < SMALLEST => scientific(0.0, 5),
+        // What is smaller has an exponent that takes one column more than there is.
+        _ if x.abs() < 1e-99 => scientific(0.0, 5),
         _ => (0..=5)
             .rev()
             .map(|digits| scientific(x, digits))
-            .find(|text| text.len() <= WIDTH)
+            .find(|text| text.len() <= VALUE_WIDTH)
             .unwrap_or_default(),
     };
-    out.extend(std::iter::repeat_n(b' ', WIDTH - text.len()));
+    out.extend(std::iter::repeat_n(b' ', VALUE_WIDTH - text.len()));
     out.extend(text.bytes());
 }
 
@@ -38,14 +36,14 @@ pub(super) fn time(t: f64) -> String {
     let plain = (0..=9)
         .rev()
         .map(|digits| format!("{t:.digits$}"))
-        .find(|text| text.len() < WIDTH);
+        .find(|text| text.len() < VALUE_WIDTH);
     let short = scientific(t, 5);
     let error = |text: &str| (text.parse::<f64>().unwrap_or(f64::INFINITY) - t).abs();
     let text = match plain {
         Some(plain) if error(&plain) < error(&short) => plain,
         _ => short,
     };
-    format!("{text:>WIDTH$}")
+    format!("{text:>VALUE_WIDTH$}")
 }
 
 /// A whole number in no more columns than it has: what is beyond is cut to the largest that fits, as a number that is too long would move all that follows.

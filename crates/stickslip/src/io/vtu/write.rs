@@ -11,7 +11,7 @@ use crate::system::{Fields, Location};
 use super::kinds::{vtk_order, vtk_type};
 
 /// Bytes compressed at a time.
-const BLOCK: usize = 1 << 18;
+const BLOCK_BYTES: usize = 1 << 18;
 
 /// Writes a mesh at its reference coordinates with the fields on it.
 ///
@@ -331,11 +331,8 @@ impl Array {
     }
 }
 
-/// Part of a block that compression has to save before it is worth its time: fields are of digits that look like noise, indices and what is zero are not.
-const WORTH: f64 = 0.25;
-
 /// What is tried to find out: so many pieces of so many bytes, all over the block.
-const PIECES: usize = 4;
+const TRIED_PIECES: usize = 4;
 const PIECE: usize = 1 << 12;
 
 /// Appends the blocks of an array behind their header: number of blocks, size of a block and of an incomplete last one
@@ -345,8 +342,8 @@ fn compress(bytes: &[u8], out: &mut Vec<u8>) {
         true => deflate(block, flate2::Compression::none()),
         false => deflate(block, flate2::Compression::fast()),
     };
-    let blocks: Vec<Vec<u8>> = bytes.chunks(BLOCK).map(packed).collect();
-    let mut header = vec![blocks.len(), BLOCK, bytes.len() % BLOCK];
+    let blocks: Vec<Vec<u8>> = bytes.chunks(BLOCK_BYTES).map(packed).collect();
+    let mut header = vec![blocks.len(), BLOCK_BYTES, bytes.len() % BLOCK_BYTES];
     header.extend(blocks.iter().map(Vec::len));
     out.extend(header.iter().flat_map(|&n| (n as u64).to_le_bytes()));
     out.extend(blocks.iter().flatten());
@@ -354,15 +351,17 @@ fn compress(bytes: &[u8], out: &mut Vec<u8>) {
 
 /// Whether compression would save next to nothing.
 fn is_noise(block: &[u8]) -> bool {
-    if block.len() < 2 * PIECES * PIECE {
+    if block.len() < 2 * TRIED_PIECES * PIECE {
         return false;
     }
-    let step = block.len() / PIECES;
-    let pieces: Vec<&[u8]> = (0..PIECES)
+    let step = block.len() / TRIED_PIECES;
+    let pieces: Vec<&[u8]> = (0..TRIED_PIECES)
         .map(|k| &block[k * step..k * step + PIECE])
         .collect();
     let left = deflate(&pieces.concat(), flate2::Compression::fast()).len();
-    left as f64 > (1.0 - WORTH) * (PIECES * PIECE) as f64
+    // Compression is worth its time if it saves a quarter of a block: fields are of digits that look like noise, indices and what is zero
+    // are not.
+    left as f64 > (1.0 - 0.25) * (TRIED_PIECES * PIECE) as f64
 }
 
 fn deflate(bytes: &[u8], level: flate2::Compression) -> Vec<u8> {

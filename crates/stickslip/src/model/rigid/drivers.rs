@@ -6,11 +6,11 @@ use super::modes::{Mode, modes};
 use crate::contact::interface::{Interface, Primary};
 use crate::model::rigid::held;
 
-/// Force along a motion, relative to the sum of its parts, that is rounding.
-const NO_FORCE: f64 = 1e-8;
+/// Force along a motion, relative to the sum of its parts, that is rounding. Tuned.
+const NO_FORCE_ALONG: f64 = 1e-8;
 
 /// Most names in a sentence.
-const MOST_NAMED: usize = 3;
+const NAMES_A_SENTENCE: usize = 3;
 
 /// A load, pretension, support or obstacle that drives a motion.
 #[derive(Debug, Clone, PartialEq)]
@@ -130,7 +130,7 @@ pub(crate) fn drivers(scene: &Scene, body: usize, t: f64) -> Vec<Driver> {
         }
         let push = push(scene, &all, &motion, t);
         for (name, force) in push.each {
-            if force.abs() <= NO_FORCE * push.size {
+            if force.abs() <= NO_FORCE_ALONG * push.size {
                 continue;
             }
             match found.iter_mut().find(|(n, _)| *n == name) {
@@ -148,7 +148,7 @@ pub(crate) fn drivers(scene: &Scene, body: usize, t: f64) -> Vec<Driver> {
     if drivers.is_empty() {
         drivers = movers(scene, body, t);
     }
-    drivers.truncate(MOST_NAMED);
+    drivers.truncate(NAMES_A_SENTENCE);
     drivers
 }
 
@@ -232,7 +232,7 @@ fn movers(scene: &Scene, body: usize, t: f64) -> Vec<Driver> {
 impl Push {
     /// Whether it is more than rounding.
     pub fn is_felt(&self) -> bool {
-        self.total.abs() > NO_FORCE * self.size
+        self.total.abs() > NO_FORCE_ALONG * self.size
     }
 
     /// The loads that push the way they do together, the largest first.
@@ -240,7 +240,7 @@ impl Push {
         let along = self.each.iter().filter(|(_, f)| f * self.total > 0.0);
         let mut each: Vec<_> = along.collect();
         each.sort_by(|a, b| b.1.abs().total_cmp(&a.1.abs()));
-        each.truncate(MOST_NAMED);
+        each.truncate(NAMES_A_SENTENCE);
         let driver = |(key, force): &(String, f64)| Driver {
             key: key.clone(),
             what: format!("pushes with {:.3e}", force.abs()),

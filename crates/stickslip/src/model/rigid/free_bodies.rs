@@ -4,7 +4,7 @@ use super::super::contact::Contact;
 use super::super::definition::{Model, Reference};
 use super::super::frame::ContactMemory;
 use super::super::scene::Scene;
-use super::held::{HELD, NO_PART, Resisted, directions, plain};
+use super::held::{NO_PART, NO_RESISTANCE, Resisted, directions, plain};
 use super::modes::{BEYOND, Mode, centre, modes, motions, shift_and_turn};
 use super::{null_space, null_space_below};
 use crate::body::couplings::Row;
@@ -12,9 +12,6 @@ use crate::body::{RigidMode, rigid_modes};
 use crate::contact::interface::Interface;
 use crate::contact::look;
 use crate::math::{Vec3, add, cross, sub};
-
-/// Part of a mode in a motion, relative to the largest, from which on the mode is named.
-const NAMED: f64 = 0.1;
 
 /// A body that supports and springs leave free to move, with those that ties make one with it.
 #[derive(Clone, crate::keep::Keep)]
@@ -187,7 +184,7 @@ fn free(
     gram: &[Vec<f64>],
     modes: &[Mode],
 ) -> Option<FreeBody> {
-    let (mut unheld, none) = null_space(gram, HELD);
+    let (mut unheld, none) = null_space(gram, NO_RESISTANCE);
     if group.len() > 1 {
         unheld = plain(unheld);
     }
@@ -203,7 +200,8 @@ fn free(
         let both = || motion.iter().zip(parts);
         let largest = both().fold(0.0_f64, |m, (c, _)| m.max(c.abs()));
         let mut names: Vec<&str> = Vec::new();
-        for (_, part) in both().filter(|(c, _)| c.abs() > NAMED * largest) {
+        // A mode is named from this part of the largest on.
+        for (_, part) in both().filter(|(c, _)| c.abs() > 0.1 * largest) {
             if !names.contains(&part.name.as_str()) {
                 names.push(&part.name);
             }

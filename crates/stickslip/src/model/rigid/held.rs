@@ -7,6 +7,7 @@ use super::null_space;
 use crate::contact::interface::{Interface, Primary};
 use crate::contact::look;
 use crate::math::{Vec3, dot, symmetric_eigen};
+use crate::tolerance::SAME;
 
 /// An unconstrained motion: how much of each mode is in it.
 pub(crate) type Unheld = Vec<f64>;
@@ -14,17 +15,14 @@ pub(crate) type Unheld = Vec<f64>;
 /// Most modes that are looked at together.
 const MOST_MODES: usize = 120;
 
-/// Resistance to a motion, relative to the largest, up to which it is unconstrained.
-pub(crate) const HELD: f64 = 1e-10;
+/// Resistance to a motion, relative to the largest, up to which it is unconstrained. Tuned.
+pub(crate) const NO_RESISTANCE: f64 = 1e-10;
 
-/// Part of a motion below which a mode is no part of it.
+/// Part of a motion below which a mode is no part of it. Tuned.
 pub(crate) const NO_PART: f64 = 1e-6;
 
 /// Points of an interface that are asked, about.
-const ASKED: usize = 2000;
-
-/// Least share of the directions of an interface.
-const FLAT: f64 = 1e-9;
+const ASKED_POINTS: usize = 2000;
 
 /// Sums of products of what resists the modes.
 pub(super) struct Resisted<'a> {
@@ -60,7 +58,7 @@ impl Resisted<'_> {
             Primary::Rigid(..) => None,
         };
         let theirs = facing.and_then(body_of);
-        let stride = interface.points.len().div_ceil(ASKED).max(1);
+        let stride = interface.points.len().div_ceil(ASKED_POINTS).max(1);
         let asked: Vec<_> = interface.points.iter().step_by(stride).collect();
         let weight = 1.0 / asked.len().max(1) as f64;
         for point in asked {
@@ -124,7 +122,7 @@ pub(crate) fn unheld(scene: &Scene, t: f64, modes: &[Mode], contact: bool) -> Ve
         let directions = directions(interface, t);
         resisted.interface(interface, &directions);
     }
-    plain(null_space(&resisted.gram, HELD).0)
+    plain(null_space(&resisted.gram, NO_RESISTANCE).0)
 }
 
 /// Directions in which an interface may resist: all where it sticks or is tied, else those of its normals.
@@ -164,7 +162,7 @@ pub(super) fn directions(interface: &Interface, t: f64) -> Vec<Vec3> {
     let some = values
         .iter()
         .enumerate()
-        .filter(|(_, v)| **v > FLAT * whole);
+        .filter(|(_, v)| **v > SAME * whole);
     some.map(|(k, _)| std::array::from_fn(|i| vectors[i][k]))
         .collect()
 }

@@ -1,7 +1,6 @@
 //! The motion without strain that comes nearest to what a body did.
 
-/// What is left of a motion after those before it, relative to the motion, below which they say the same.
-const SAME: f64 = 1e-6;
+use crate::tolerance::NEGLIGIBLE;
 
 /// The combination of `motions`, by dof, that comes nearest to displacements in the scalar product `over`, which sums over the dofs that are known; earlier motions come
 /// first. `along`: the scalar product of a motion with the displacements.
@@ -24,7 +23,8 @@ pub(crate) fn nearest_motion(
             }
         }
         let size = over(&motion, &motion).sqrt();
-        if size <= SAME * whole {
+        // Motions say the same if less is left of one after the others.
+        if size <= NEGLIGIBLE * whole {
             continue;
         }
         motion.iter_mut().for_each(|v| *v /= size);

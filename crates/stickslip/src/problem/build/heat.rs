@@ -13,9 +13,7 @@ use crate::error::{Diagnostic, Error};
 use crate::material::{Dilation, MaterialError, Stiffness};
 use crate::mesh::Mesh;
 use crate::model::Body;
-
-/// Part of the largest stiffness by which a cell may differ at two temperatures and still count as the same.
-const SAME: f64 = 1e-12;
+use crate::tolerance::ROUNDING;
 
 /// A material over temperature.
 pub(super) struct Law {
@@ -85,7 +83,8 @@ impl Law {
             .fold(0.0_f64, |m, c| m.max(c.abs()));
         let same = |c: Stiffness| {
             let both = c.into_iter().flatten().zip(first.into_iter().flatten());
-            both.into_iter().all(|(a, b)| (a - b).abs() <= SAME * scale)
+            both.into_iter()
+                .all(|(a, b)| (a - b).abs() <= ROUNDING * scale)
         };
         let within = self.rows.iter().filter(|row| low < row.0 && row.0 < high);
         same(self.at(high)) && within.into_iter().all(|row| same(row.1))

@@ -14,12 +14,6 @@ use crate::math::{Vec3, dot, symmetric_eigen};
 use crate::model::Support;
 use crate::system::{Course, Dofs, Link, Links};
 
-/// Part of a motion along the normal that is left to a node, below which it has none of its own: of two nodes that are held alike neither can make way for the other.
-const LEAST: f64 = 0.5;
-
-/// Part of the best known motion of a rigid body from which on a motion of it is known.
-const KNOWN: f64 = 1e-10;
-
 /// Which displacements are not free.
 pub(super) struct HeldNodes<'a> {
     links: &'a Links,
@@ -216,7 +210,9 @@ impl<'a> HeldNodes<'a> {
                 axes = std::array::from_fn(|c| axes[c] && !across[c]);
                 *held = match tied {
                     true => axes[..dim].contains(&true),
-                    false => left(face.normals[a], axes) <= LEAST,
+                    // A node that has half of a motion along the normal left or less has none of its own: of two nodes that are held alike
+                    // neither can make way for the other.
+                    false => left(face.normals[a], axes) <= 0.5,
                 };
             }
         }
@@ -332,7 +328,8 @@ fn determine(link: &Link, dofs: Dofs, rows: &[[(usize, f64); 3]]) -> bool {
         .collect();
     let (values, _) = symmetric_eigen(&gram);
     let both = values.first().zip(values.last());
-    both.is_some_and(|(least, most)| *least > KNOWN * most)
+    // Part of the best known motion of a rigid body from which on a motion of it is known.
+    both.is_some_and(|(least, most)| *least > 1e-10 * most)
 }
 
 /// How far a unit motion along `normal` is left where these axes are held.

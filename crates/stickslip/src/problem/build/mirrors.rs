@@ -5,9 +5,7 @@ use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::math::{Vec3, norm, normalize, sub};
 use crate::model::Support;
 use crate::system::{Course, Dofs, Links};
-
-/// Part of the size of an interface by which points of one plane may differ.
-const ON_PLANE: f64 = 1e-6;
+use crate::tolerance::NEGLIGIBLE;
 
 /// What supports hold where it is in all steps.
 pub(super) struct Held<'a> {
@@ -65,7 +63,7 @@ pub(super) fn mark(interface: &mut InterfaceDefinition, held: &Held, angle: f64)
     let high = nodes().fold([f64::NEG_INFINITY; 3], |m, x| {
         std::array::from_fn(|c| m[c].max(x[c]))
     });
-    let near = ON_PLANE * norm(sub(high, low));
+    let near = NEGLIGIBLE * norm(sub(high, low));
     for c in 0..interface.dofs.dim {
         for plane in [low[c], high[c]] {
             let on: Vec<bool> = nodes().map(|x| (x[c] - plane).abs() <= near).collect();

@@ -15,15 +15,7 @@ use crate::math::{Mat3, Vec3, add_scaled, distance, dot, norm, sub, symmetric_ei
 use crate::mesh::{Mesh, geometry};
 use crate::model::{Body, Reference, Rigid, Step, Support};
 use crate::system::{BodyFrames, DependentNode, Dofs, Freedom, Link, Links, Motion};
-
-/// Part of what resists a reference point the most below which nothing does.
-const NOTHING: f64 = 1e-12;
-
-/// By how much of its size what a reference point carries may miss that with its centre of mass.
-const CENTRED: f64 = 1e-6;
-
-/// Part of a load along a motion that is rounding.
-const ROUNDING: f64 = 1e-9;
+use crate::tolerance::{NEGLIGIBLE, SAME};
 
 /// The reference points by name, the first hidden point of each.
 pub(super) fn numbered(problem: &Problem, first: usize) -> BTreeMap<String, usize> {
@@ -217,7 +209,8 @@ fn carried(
         let both = both.zip(more.as_flattened());
         both.for_each(|(sum, more)| *sum += more);
     }
-    if norm(first) > CENTRED * size {
+    // What a reference point carries may miss that with its centre of mass by this part of its size.
+    if norm(first) > NEGLIGIBLE * size {
         refuse_swinging(name, link, said)?;
     }
     Ok(out)
@@ -318,7 +311,7 @@ fn refuse_loads(
 ) -> Result<(), Error> {
     let motions = link.motions(said.dofs());
     let (values, vectors) = symmetric_eigen(gram);
-    let least = NOTHING * values.last().copied().unwrap_or(0.0).max(1.0);
+    let least = SAME * values.last().copied().unwrap_or(0.0).max(1.0);
     let free = values.iter().enumerate().filter(|(_, v)| **v <= least);
     for (k, _) in free {
         for load in said.loads {
@@ -331,7 +324,7 @@ fn refuse_loads(
                 Some((vectors[at][k] * f, f.abs()))
             });
             let (along, size) = own.fold((0.0, 0.0), |s, (a, f)| (s.0 + a, s.1 + f));
-            if f64::abs(along) <= ROUNDING * size {
+            if f64::abs(along) <= SAME * size {
                 continue;
             }
             let parts: Vec<String> = (motions.iter().enumerate())
@@ -356,7 +349,7 @@ fn refuse_loads(
 fn left_out(mut gram: Vec<Vec<f64>>) -> Vec<usize> {
     let n = gram.len();
     let mut left: Vec<usize> = (0..n).collect();
-    let least = NOTHING * (0..n).fold(1.0_f64, |m, i| m.max(gram[i][i]));
+    let least = SAME * (0..n).fold(1.0_f64, |m, i| m.max(gram[i][i]));
     while let Some(&p) = (left.iter()).max_by(|a, b| gram[**a][**a].total_cmp(&gram[**b][**b])) {
         let pivot = gram[p][p];
         if pivot <= least {

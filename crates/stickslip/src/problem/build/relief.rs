@@ -9,9 +9,6 @@ use crate::error::{Diagnostic, Error};
 use crate::math::{Vec3, add, add_scaled, cross, dot, normalize, sub};
 use crate::roughness::Figures;
 
-/// Cosine of the angle between an axis and the normal from which on the axis is none of the surface.
-const ACROSS: f64 = 0.9;
-
 /// Gives interfaces the heights that the problem says they have; what there is to say of them.
 ///
 /// # Errors
@@ -119,7 +116,8 @@ fn places(roughness: &Roughness, interface: &InterfaceDefinition) -> Vec<[f64; 2
 /// Both axes of a surface with this normal; in the plane the second one is zero.
 fn axes(roughness: &Roughness, normal: Vec3, dim: usize) -> [Vec3; 2] {
     let wished = roughness.along.as_deref().map(padded);
-    let first = wished.unwrap_or(match normal[0].abs() > ACROSS {
+    // From this cosine of the angle between an axis and the normal on, the axis is none of the surface.
+    let first = wished.unwrap_or(match normal[0].abs() > 0.9 {
         true => [0.0, 1.0, 0.0],
         false => [1.0, 0.0, 0.0],
     });

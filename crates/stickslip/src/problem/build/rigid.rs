@@ -7,13 +7,11 @@ use crate::error::{Diagnostic, Error};
 use crate::math::{Mat3, sub, symmetric_eigen};
 use crate::model::{Body, Prescribed, Rigid};
 use crate::system::{Dofs, Freedom, Link, Links, Motion, Row};
+use crate::tolerance::NEGLIGIBLE;
 
 /// Square of the part of a motion that a support may leave out of it, or take of it, without meaning to: a set that misses the centre
 /// of mass by `1e-5` of the size of the body counts as lying there.
-const SLIGHT: f64 = 1e-10;
-
-/// By how much given values may differ from a rigid motion, relative to the largest.
-const APART: f64 = 1e-6;
+const SLIGHT_PART: f64 = 1e-10;
 
 /// The link of a rigid body whose hidden points start at `hidden`, and its mass.
 pub(super) fn link(
@@ -90,7 +88,7 @@ fn fit(link: &Link, dofs: Dofs, rows: &[(Row, f64)]) -> Fit {
         }
     }
     let (values, vectors) = symmetric_eigen(&gram);
-    let least = SLIGHT * values.last().copied().unwrap_or(0.0);
+    let least = SLIGHT_PART * values.last().copied().unwrap_or(0.0);
     let mut solution = vec![0.0; n];
     let mut part = vec![0.0; n];
     for (k, &value) in values.iter().enumerate().filter(|(_, v)| **v > least) {
@@ -160,7 +158,7 @@ impl RigidBodies<'_> {
                     .help("support the reference point"));
             }
             let fit = fit(link, self.dofs, &rows);
-            let unclear = |part: f64| part > SLIGHT && part < 1.0 - SLIGHT;
+            let unclear = |part: f64| part > SLIGHT_PART && part < 1.0 - SLIGHT_PART;
             if let Some((_, motion, ..)) = fit.motions.iter().find(|m| unclear(m.3)) {
                 return Err(Diagnostic::new(
                     format!("support.{name}.set"),
@@ -171,7 +169,7 @@ impl RigidBodies<'_> {
                 .help("support the whole body, or a set symmetric to its centre of mass"));
             }
             let largest = rows.iter().fold(0.0_f64, |m, (_, v)| m.max(v.abs()));
-            if fit.apart > APART * largest {
+            if fit.apart > NEGLIGIBLE * largest {
                 return Err(Diagnostic::new(
                     format!("support.{name}"),
                     format!("rigid body `{body}` cannot move like that"),
@@ -224,7 +222,7 @@ impl RigidBodies<'_> {
                 .help("give it for the whole body"));
             }
             let largest = rows.iter().fold(0.0_f64, |m, (_, v)| m.max(v.abs()));
-            if fit.apart > APART * largest {
+            if fit.apart > NEGLIGIBLE * largest {
                 return Err(Diagnostic::new(
                     key,
                     format!("the values are no rigid motion of body `{body}`"),

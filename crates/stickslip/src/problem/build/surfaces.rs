@@ -15,12 +15,7 @@ use crate::math::{Vec3, add_scaled, cross, dot, norm, normalize, sub};
 use crate::mesh::{FacetRef, Mesh, geometry};
 use crate::model::Body;
 use crate::shape::{ElementKind, QuadraturePoint, mass_rule};
-
-/// Multiple of its size by which a model lies away before its interfaces count coordinates from somewhere nearer.
-const FAR: f64 = 16.0;
-
-/// Radius of a node on the axis, relative to those of its edge.
-const ON_AXIS: f64 = 1e-9;
+use crate::tolerance::SAME;
 
 /// Divisions of a quadrilateral, each way, with 2 × 2 points in each part.
 const DIVISIONS: usize = 3;
@@ -72,10 +67,6 @@ pub(super) struct Surfaces<'a> {
     pub(super) bodies: &'a [Body],
 }
 
-/// Cosine of the angle by which the faces of a slit look at each other where it ends, and sine of that by which meshes may have them enter each other there.
-const LOOKING: f64 = 0.5;
-const ENTERING: f64 = 0.1;
-
 /// What a facet adds to its contact points.
 pub(super) struct Beneath {
     pub(super) normal: Vec3,
@@ -108,7 +99,8 @@ impl Surfaces<'_> {
         let unit = size.log2().ceil().exp2();
         std::array::from_fn(|c| {
             let middle = 0.5 * (low[c] + high[c]);
-            let far = middle.abs() > FAR * size && unit.is_normal();
+            // Multiple of its size by which a model lies away before its interfaces count coordinates from somewhere nearer.
+            let far = middle.abs() > 16.0 * size && unit.is_normal();
             let radius = c == 0 && self.space == Space::Axisymmetric;
             match far && !radius {
                 true => unit * (middle / unit).round(),
@@ -201,7 +193,7 @@ impl Surfaces<'_> {
         };
         let most = extents().fold(0.0, f64::max);
         matches!(self.space, Space::Axisymmetric)
-            && (obstacle || extents().any(|e| e <= ON_AXIS * most))
+            && (obstacle || extents().any(|e| e <= SAME * most))
     }
 
     /// One point a node, the mean over the quadratic faces around it weighted by its dual function: as many points as a body can follow, with
@@ -522,7 +514,9 @@ impl Surfaces<'_> {
         let (Some((n, to)), Some((m, too))) = (side(secondary), side(primary)) else {
             return false;
         };
-        dot(n, m) < -LOOKING && dot(to, m) > -ENTERING && dot(too, n) > -ENTERING
+        // The faces of a slit look at each other where it ends (cosine of the angle), and meshes may have them enter each other a little
+        // there (sine of the angle).
+        dot(n, m) < -0.5 && dot(to, m) > -0.1 && dot(too, n) > -0.1
     }
 }
 

@@ -5,7 +5,7 @@ use super::findings::Findings;
 use crate::model::Jump;
 
 /// Amplitude tables are written out for all cycles that may be computed; at a second each so many take twelve days.
-const MOST: usize = 1_000_000;
+const MOST_CYCLES: usize = 1_000_000;
 
 /// What may not change over cycles, from `span[0]` to `span[1]` in amplitude tables.
 pub(super) fn check(findings: &mut Findings, key: &[&str], problem: &Problem, span: [f64; 2]) {
@@ -76,8 +76,8 @@ fn jumps(add: &mut impl FnMut(String, &str), Cycles { count, jump }: Cycles) {
                 add(message, "");
             }
             let computed = count.div_ceil(n.max(1));
-            if computed > MOST {
-                let message = format!("{computed} cycles would be computed: at most {MOST}");
+            if computed > MOST_CYCLES {
+                let message = format!("{computed} cycles would be computed: at most {MOST_CYCLES}");
                 add(message, "let one stand for several, by `jump`");
             }
             return;
@@ -98,8 +98,8 @@ fn jumps(add: &mut impl FnMut(String, &str), Cycles { count, jump }: Cycles) {
         let message = "`largest` is smaller than `first`";
         add(message.into(), "");
     }
-    if count > MOST {
-        let message = format!("{count} cycles with jumps that are chosen: at most {MOST}");
+    if count > MOST_CYCLES {
+        let message = format!("{count} cycles with jumps that are chosen: at most {MOST_CYCLES}");
         let help = "let a number of cycles be one, with a wear rate as many times as large, or give a fixed jump";
         add(message, help);
     }

@@ -81,7 +81,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
 }
 
 /// Most characters of a name: with what is put before and behind it, it stays a name of a file everywhere.
-const LONGEST: usize = 100;
+const LONGEST_NAME: usize = 100;
 
 /// Tables whose names begin names of columns.
 const COLUMNS: [&str; 7] = [
@@ -102,7 +102,7 @@ fn misspelled(name: &str) -> Option<&'static str> {
     let wrong = |c: char| c.is_control() || r#"/\<>:"|?*"#.contains(c);
     if name.trim().is_empty() {
         Some("it is empty")
-    } else if name.chars().count() > LONGEST {
+    } else if name.chars().count() > LONGEST_NAME {
         Some("it has more than 100 characters")
     } else if name.starts_with('.') || name.ends_with('.') {
         Some("it begins or ends with a dot")
@@ -165,7 +165,8 @@ fn spelled(problem: &Problem, findings: &mut Findings) {
     // Steps are only talked about.
     for (i, step) in problem.step.iter().enumerate() {
         let name = step.name.as_deref().unwrap_or("step");
-        if name.is_empty() || name.chars().count() > LONGEST || name.contains(char::is_control) {
+        if name.is_empty() || name.chars().count() > LONGEST_NAME || name.contains(char::is_control)
+        {
             let key = ["step", &i.to_string(), "name"];
             let message = format!("`{}` cannot be the name of a step", name.escape_debug());
             findings.add(&key, message, "give it 1 to 100 printable characters");

@@ -8,6 +8,7 @@ use crate::error::{Error, IoError};
 use crate::io::csv::{self, Table};
 use crate::io::{pvd, vtu};
 use crate::math::{Vec3, distance, norm, sub};
+use crate::tolerance::{NEGLIGIBLE, SAME};
 
 /// What two folders of results have in common, and where they are farthest apart.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -53,15 +54,6 @@ const OF_THE_SOLVER: [&str; 7] = [
     "AUGMENTATIONS",
     "RESIDUAL",
 ];
-
-/// Difference of times, relative to the whole duration, and of places, relative to the size of what they belong to, that counts as none.
-const SAME: f64 = 1e-9;
-
-/// Part of the largest value of its kind in any part of the model below which a quantity is rounding: a reaction that is zero has no digits to compare.
-const ROUNDING: f64 = 1e-9;
-
-/// The same of places, which are written with fewer digits.
-const SAME_PLACE: f64 = 1e-6;
 
 /// Compares two folders of results, each written by a run.
 ///
@@ -155,7 +147,9 @@ impl Largest {
         }
         for (name, (largest, place)) in self.found {
             let family = family(&name);
-            let least = ROUNDING * kinds[&kind(family)];
+            // Below this part of the largest value of its kind in any part of the model a quantity is rounding: a reaction that is zero has
+            // no digits to compare.
+            let least = SAME * kinds[&kind(family)];
             out.quantities.push(Difference {
                 scale: self.scales[family].max(least),
                 quantity: format!("{prefix} {name}"),
@@ -307,7 +301,8 @@ fn unlike([a, b]: [&[Vec3]; 2]) -> Option<String> {
         .zip(b)
         .map(|(x, y)| norm(sub(*x, *y)))
         .fold(0.0, f64::max);
-    (moved > SAME_PLACE * size).then(|| format!("points of the meshes lie up to {moved:.3e} apart"))
+    // Places are written with fewer digits.
+    (moved > NEGLIGIBLE * size).then(|| format!("points of the meshes lie up to {moved:.3e} apart"))
 }
 
 fn place(x: Vec3) -> String {
@@ -361,13 +356,13 @@ fn table(name: &str, tables: &[Table; 2], out: &mut Differences) {
 }
 
 /// Lines of the longest list of quantities.
-const MOST: usize = 40;
+const MOST_QUANTITIES: usize = 40;
 
 impl fmt::Display for Differences {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let differ: Vec<&Difference> = self.quantities.iter().filter(|d| d.largest > 0.0).collect();
         let equal = self.quantities.len() - differ.len();
-        let shown = &differ[..differ.len().min(MOST)];
+        let shown = &differ[..differ.len().min(MOST_QUANTITIES)];
         let width = shown
             .iter()
             .map(|d| d.quantity.chars().count())

@@ -7,7 +7,7 @@ use crate::model::frame::Frame;
 use crate::solve::solver::Solver;
 
 /// Points of interfaces below which all of them are candidates.
-const FEW: usize = 60;
+const FEW_POINTS: usize = 60;
 
 /// How often candidates are added before all points are.
 const MOST_WIDENED: usize = 4;
@@ -30,7 +30,7 @@ pub fn choose_candidates(solver: &mut Solver, model: &Model, frame: &Frame, cont
     }
     let count = all.iter().filter(|a| **a).count();
     let widened = solver.condenser.widened;
-    if count < FEW || widened >= MOST_WIDENED || !solver.method.condenses() {
+    if count < FEW_POINTS || widened >= MOST_WIDENED || !solver.method.condenses() {
         for (interface, conditions) in contact.interfaces.iter().zip(&mut solver.conditions) {
             conditions.candidates = include_all(interface, &mut kept);
         }

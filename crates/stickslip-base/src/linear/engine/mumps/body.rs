@@ -16,7 +16,7 @@ use crate::machine;
 const COMPLIANCE: u64 = 28;
 
 /// Entries that are added up before they are written: enough for the cells of a body that are near each other to meet.
-const TOGETHER: usize = 1 << 20;
+const ENTRIES_TOGETHER: usize = 1 << 20;
 
 /// A body before it is factored.
 #[derive(Debug)]
@@ -117,7 +117,7 @@ impl Body {
             union.join(i, j);
             count += 1;
             entries.push(((i as u64) << 32 | j as u64, value));
-            if entries.len() == TOGETHER {
+            if entries.len() == ENTRIES_TOGETHER {
                 unwritten = deal(&mut entries, &mut shares).err();
             }
         });

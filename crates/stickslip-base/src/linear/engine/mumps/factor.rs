@@ -12,8 +12,8 @@ use super::words::WordReader;
 use crate::linear::engine::contract::{Analysed, FactorEffort, Interior};
 use crate::linear::{LinearError, Matrix, Numbers, Schur, Workspace};
 
-/// Largest error, relative to the whole, of displacements that are known beforehand: what is worse comes of a singular matrix.
-const TRUST: f64 = 1e-3;
+/// Largest error, relative to the whole, of displacements that are known beforehand: what is worse comes of a singular matrix. Tuned.
+const LARGEST_KNOWN_ERROR: f64 = 1e-3;
 
 /// Bytes of a mebibyte.
 const MIB: u64 = 1 << 20;
@@ -172,7 +172,7 @@ impl Factor {
         let wrong = size(&mut interior.iter().zip(&known).map(|(a, b)| a - b));
         let odd = size(&mut root.iter().zip(&felt).map(|(a, b)| a - b))
             / size(&mut root.iter().copied()).max(f64::MIN_POSITIVE);
-        if wrong < TRUST && (odd < TRUST || c == 0) {
+        if wrong < LARGEST_KNOWN_ERROR && (odd < LARGEST_KNOWN_ERROR || c == 0) {
             return Ok(());
         }
         Err(match self.body.options.low_rank {

@@ -25,7 +25,7 @@ const START: Duration = Duration::from_secs(120);
 const END: Duration = Duration::from_secs(10);
 
 /// Lines of what a job says on its standard error that are kept, and shown.
-const KEPT: usize = 100;
+const KEPT_LINES: usize = 100;
 const SHOWN: usize = 4;
 
 /// What to do.
@@ -345,7 +345,7 @@ impl Talk {
 fn listen(out: impl Read, kept: &Mutex<Vec<String>>) {
     for line in BufReader::new(out).lines().map_while(Result::ok) {
         let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
-        if kept.len() == KEPT {
+        if kept.len() == KEPT_LINES {
             kept.remove(0);
         }
         kept.push(line);

@@ -8,7 +8,7 @@ use std::path::Path;
 const MAGIC: u64 = 0x3170_6d75_736c_7073;
 
 /// Bytes read and written at a time.
-const CHUNK: usize = 1 << 16;
+const PIPE_BYTES: usize = 1 << 16;
 
 fn mix(sum: u64, word: u64) -> u64 {
     let mixed = (sum ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
@@ -24,7 +24,7 @@ pub(super) struct WordWriter {
 
 impl WordWriter {
     pub fn new(path: &Path) -> io::Result<Self> {
-        let mut file = BufWriter::with_capacity(CHUNK, File::create(path)?);
+        let mut file = BufWriter::with_capacity(PIPE_BYTES, File::create(path)?);
         file.write_all(&MAGIC.to_ne_bytes())?;
         file.write_all(&0_u64.to_ne_bytes())?;
         Ok(WordWriter {
@@ -66,7 +66,7 @@ impl<'a> WordReader<'a> {
         let file = File::open(path)?;
         let mut reader = WordReader {
             path,
-            file: BufReader::with_capacity(CHUNK, file),
+            file: BufReader::with_capacity(PIPE_BYTES, file),
             left: 0,
             sum: 0,
         };

@@ -14,9 +14,6 @@ use crate::contact::worn::track::Under;
 use crate::math::{Vec3, add, add_scaled, norm, scale, sub};
 use crate::system::Stage;
 
-/// Parts of a way: one along the distance of two places, and at most so many.
-const MOST: f64 = 4096.0;
-
 /// By how much what lies opposite a point has moved, of coordinates of all nodes.
 fn opposite_moved(
     interface: &InterfaceDefinition,
@@ -62,7 +59,8 @@ pub(in crate::contact) fn wear_track(
     let ways = last.points.iter().zip(volumes);
     let ways = ways.filter(|(_, v)| **v != 0.0).map(|(e, _)| norm(e.moved));
     let longest = ways.fold(0.0, f64::max);
-    let parts = (longest / track.chart.spacing()).ceil().clamp(1.0, MOST);
+    // One part along the distance of two places, and at most so many.
+    let parts = (longest / track.chart.spacing()).ceil().clamp(1.0, 4096.0);
     let [from, to] = [&stage.from.u, &stage.at.u].map(|u| input.coordinates(u));
     let mut lost: HashMap<Place, f64> = HashMap::new();
     for part in 0..parts as usize {

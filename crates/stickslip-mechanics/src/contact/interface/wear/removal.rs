@@ -22,9 +22,8 @@ use crate::contact::law::wear::{Feedback, Sliding, WearPoint, WearRate};
 use crate::contact::response::{LawInput, Response, Status, Worn, respond};
 use crate::math::{Vec3, add_scaled, norm, scale};
 
-/// Evaluations of the laws after which path and pressure of a point that wears are taken as they are, and the change of the depth that is none.
+/// Evaluations of the laws after which path and pressure of a point that wears are taken as they are.
 const EVALUATIONS: usize = 50;
-const SETTLED: f64 = 1e-13;
 
 /// Length of a way along two directions.
 pub(in crate::contact) fn length(frame: [Vec3; 2], way: [f64; 2]) -> f64 {
@@ -128,7 +127,8 @@ pub(in crate::contact) fn wearing(
         let worn = wear_compliance(interface, i, path, at.dt, pressure);
         let off = worn.depth(pressure) - at.worn.depth(pressure);
         let turned = worn.slope - at.worn.slope;
-        if off.abs() <= SETTLED * worn.slope * pressure && turned.abs() <= SETTLED * worn.slope {
+        // A smaller change of the depth is none.
+        if off.abs() <= 1e-13 * worn.slope * pressure && turned.abs() <= 1e-13 * worn.slope {
             break;
         }
         at.worn = worn;

@@ -19,9 +19,6 @@ pub struct Exponential {
     pub p0: f64,
 }
 
-/// Penetration over `c0` from which on the curve is a straight line.
-const STRAIGHT: f64 = 5.0;
-
 impl Exponential {
     /// `ln(100) / c0` `[1/m]`.
     fn rate(&self) -> f64 {
@@ -30,7 +27,8 @@ impl Exponential {
 
     /// The part of the gap in which the pressure is an exponential.
     fn curved(&self) -> [f64; 2] {
-        [-STRAIGHT * self.c0, self.c0]
+        // The curve is a straight line from a penetration of five times `c0` on.
+        [-5.0 * self.c0, self.c0]
     }
 
     fn exponential(&self, gap: f64) -> f64 {

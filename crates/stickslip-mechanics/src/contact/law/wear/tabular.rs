@@ -3,9 +3,7 @@ use serde::{Deserialize, Serialize};
 use super::law::{WearLaw, WearPoint, WearRate};
 use crate::contact::law::grid::Grid;
 use crate::registry::Samples;
-
-/// Part of a rate that is rounding.
-const ROUNDING: f64 = 1e-12;
+use crate::tolerance::ROUNDING;
 
 /// Measured rates over pressure and speed: depth `k(p, v) p |ds|`, with k bilinear between the entries of the table and
 /// constant outside.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::super::finding::{DoctorCause, Finding};
 use super::super::suspect::Suspect;
 use super::common::{diameter, times};
-use super::units::SIZES;
+use super::units::SIZE_RATIO;
 use crate::math::{Vec3, distance};
 use crate::model::definition::{Model, Reference};
 use crate::model::scene::Scene;
@@ -49,7 +49,7 @@ fn far(scene: &Scene, reference: &Reference) -> Option<Finding> {
     let nearest = points.iter().map(|x| distance(*x, centre));
     let nearest = nearest.fold(f64::INFINITY, f64::min);
     let name = &reference.name;
-    (nearest.is_finite() && size > 0.0 && nearest > SIZES * size).then(|| {
+    (nearest.is_finite() && size > 0.0 && nearest > SIZE_RATIO * size).then(|| {
         DoctorCause::MixedUnits.warning(format!(
             "reference point {name} is {nearest:.3e} away from what goes with it, {:.0} times the size of that, {size:.3e}: is one in millimetres and the other in metres?",
             nearest / size

@@ -9,7 +9,7 @@ use crate::model::definition::{Body, Model};
 
 /// Strain of a bolt below which its force is none. Surfaces that are pressed together for the first time settle by 3 µm and more (VDI 2230, part 1), and a bolt of 3 m,
 /// longer than most, that is stretched by less than that has lost its force by then.
-const SLACK: f64 = 1e-6;
+const SLACK_STRAIN: f64 = 1e-6;
 
 pub(super) fn check(view: &View) -> Vec<Finding> {
     let mut out = Vec::new();
@@ -118,7 +118,7 @@ impl Bolt<'_> {
         });
         let (step, force) = forces.max_by(|a, b| a.1.total_cmp(&b.1))?;
         let strain = force / stiffness;
-        (force > 0.0 && strain < SLACK).then(|| {
+        (force > 0.0 && strain < SLACK_STRAIN).then(|| {
             self.finding(
                 step,
                 format!(

@@ -6,12 +6,6 @@ use crate::math::{Vec3, add_scaled, determinant, distance, symmetric_eigen};
 use crate::model::definition::{Body, Model};
 use crate::shape::{ElementKind, MAX_NODES};
 
-/// Smallest over largest extent of a cell that is a sliver.
-const SLIVER: f64 = 1e-6;
-
-/// Volume over that of the cube of the longest edge from which a cell cannot be one, whatever its shape.
-const STOUT: f64 = 1e-3;
-
 /// Bodies with slivers, one finding each.
 pub(crate) fn slivers(model: &Model) -> Vec<Finding> {
     model.elastic().filter_map(|b| sliver(model, b)).collect()
@@ -25,7 +19,8 @@ fn sliver(model: &Model, body: &Body) -> Option<Finding> {
         for (cell, &id) in cells.zip(&block.cell_ids) {
             let x: Vec<Vec3> = cell.iter().map(|&p| model.mesh.points[p]).collect();
             let flat = flatness(kind, &x);
-            if flat < SLIVER {
+            // A cell with a smaller extent over its largest is a sliver.
+            if flat < 1e-6 {
                 found.push((flat, id, kind, x[0]));
             }
         }
@@ -84,7 +79,8 @@ fn flatness(kind: ElementKind, x: &[Vec3]) -> f64 {
     if dim == 2 {
         jacobian[2][2] = 1.0;
     }
-    if determinant(&jacobian).abs() > STOUT * edges[1].powi(dim as i32) {
+    // A cell with more of the volume of the cube of its longest edge cannot be a sliver, whatever its shape.
+    if determinant(&jacobian).abs() > 1e-3 * edges[1].powi(dim as i32) {
         return shortest;
     }
     let gram: Vec<Vec<f64>> = (0..dim)

@@ -9,9 +9,7 @@ use super::common::{forced, travel};
 use super::measured::Measured;
 use crate::assess::view::View;
 use crate::model::definition::{Model, Prescribed};
-
-/// Difference of prescribed displacements, relative to the larger, that is one.
-const DIFFERENT: f64 = 1e-9;
+use crate::tolerance::SAME;
 
 pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
     let model = view.model;
@@ -78,7 +76,7 @@ fn contradictions(model: &Model) -> Vec<Finding> {
             for e in support.entries.iter().filter(|e| !e.hold) {
                 let value = factor * e.value;
                 let &mut (other, was) = first.entry(e.dof).or_insert((k, value));
-                let apart = (value - was).abs() > DIFFERENT * value.abs().max(was.abs());
+                let apart = (value - was).abs() > SAME * value.abs().max(was.abs());
                 if other != k && apart && !seen.contains(&(other, k)) {
                     seen.push((other, k));
                     out.push(contradiction(model, other, k, was, value, e, t));

@@ -8,23 +8,16 @@ use super::super::suspect::Suspect;
 use super::common::{median, roles, sides};
 use crate::contact::facet_point::evaluate;
 use crate::contact::interface::{InterfaceDefinition, Primary};
-use crate::contact::surface::{Facet, edges};
+use crate::contact::surface::{EDGE_ANGLE, Facet, edges};
 use crate::math::{Vec3, add, dot, norm, normalize, scale, sub};
 use crate::model::definition::Model;
 
 /// Half width of contact over the radius of curvature at which strains are no longer small: a line of contact has a largest pressure of half of that
 /// part of the contact modulus (Johnson 1985, eq. 4.43 and 4.45).
-const WIDEST: f64 = 0.2;
+pub const WIDEST_CONTACT: f64 = 0.2;
 
-/// Angle between neighbouring facets beyond which they meet at an edge of the body `[rad]`.
-const SHARP: f64 = 0.5;
-
-/// Part of all places, the nearest ones, that are looked at; at least this many.
-const NEAREST: f64 = 0.25;
+/// Places that are looked at, at least.
 const LEAST: usize = 4;
-
-/// Cosine between directions from which on they are one.
-const ALONG: f64 = 0.7;
 
 /// Two facets beside each other.
 struct Bend {
@@ -62,7 +55,7 @@ fn bends(facets: &[&Facet], interface: &InterfaceDefinition) -> Vec<Bend> {
         let along = normalize(way)?;
         let length = norm(way);
         let angle = 2.0 * (0.5 * norm(turn)).min(1.0).asin();
-        (angle < SHARP).then(|| Bend {
+        (angle < EDGE_ANGLE).then(|| Bend {
             facets: [i, j],
             x: scale(0.5, add(a.x, b.x)),
             along,
@@ -91,7 +84,8 @@ fn across(
     let cosine = |b: &&Bend| dot(b.along, bend.along).abs();
     let beside = by_facet.get(&nearest.facet).into_iter().flatten().copied();
     let best = beside
-        .filter(|b| cosine(b) >= ALONG)
+        // From this cosine on directions are one.
+        .filter(|b| cosine(b) >= 0.7)
         .max_by(|p, q| cosine(p).total_cmp(&cosine(q)));
     Some(match best {
         Some(best) => (nearest.distance, best.spacing, best.curvature),
@@ -142,7 +136,8 @@ fn nearest_places(interface: &InterfaceDefinition, t: f64) -> Vec<Between> {
         }
     }
     places.sort_by(|a, b| a.away.total_cmp(&b.away));
-    places.truncate(((NEAREST * places.len() as f64) as usize).max(LEAST));
+    // The nearest quarter of all places is looked at.
+    places.truncate(((0.25 * places.len() as f64) as usize).max(LEAST));
     places
 }
 
@@ -164,7 +159,7 @@ pub(super) fn check(model: &Model, interface: &InterfaceDefinition, t: f64) -> O
     let part = [0, 1].map(|side| median(places.iter().map(|p| over(p, side)).collect()));
     let side = usize::from(part[1] > part[0]);
     let coarse = part[side];
-    (coarse > WIDEST).then(|| say(model, interface, side, coarse))
+    (coarse > WIDEST_CONTACT).then(|| say(model, interface, side, coarse))
 }
 
 fn say(model: &Model, interface: &InterfaceDefinition, side: usize, coarse: f64) -> Finding {

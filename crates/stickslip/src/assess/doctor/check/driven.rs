@@ -4,9 +4,7 @@ use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::math::{Vec3, add, distance, scale, sub};
 use crate::model::definition::{Body, Model};
 use crate::model::scene::Scene;
-
-/// Values of one component that differ by more than this part of the larger move a body in more than one way.
-const UNEVEN: f64 = 1e-6;
+use crate::tolerance::NEGLIGIBLE;
 
 /// What is prescribed for one component of a body at a time.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -58,7 +56,7 @@ pub(super) fn prescribed(model: &Model, owners: &[usize], t: f64) -> Vec<[Compon
         Component {
             count: values.len(),
             mean: values.iter().sum::<f64>() / values.len().max(1) as f64,
-            uneven: spread > UNEVEN * largest,
+            uneven: spread > NEGLIGIBLE * largest,
         }
     };
     all.iter()

@@ -14,15 +14,7 @@ use crate::contact::law::normal::NormalModel;
 use crate::math::{Vec3, dot, norm, sub};
 use crate::model::definition::Step;
 use crate::model::scene::Scene;
-
-/// Coefficients of friction of dry surfaces end here.
-const LARGE: f64 = 1.5;
-
-/// Ratio of the slopes of neighbouring pieces of a tabulated law that is hard on the iteration.
-const KINK: f64 = 300.0;
-
-/// Part of a motion along the normal that presses surfaces together.
-const ALONG: f64 = 1e-6;
+use crate::tolerance::NEGLIGIBLE;
 
 pub(super) fn check(
     view: &View,
@@ -33,7 +25,8 @@ pub(super) fn check(
     let name = &interface.name;
     if let Some(mu) = friction_coefficient(interface) {
         let limit = coupling(view, interface, measured);
-        if mu > LARGE {
+        // Coefficients of friction of dry surfaces end here.
+        if mu > 1.5 {
             out.push(
                 DoctorCause::LargeFriction.warning(format!("interface {name}: the coefficient of friction is {mu:.3}; dry surfaces rarely exceed 1"))
                     .blame(Suspect::interface(name, format!("friction {mu:.3}")))
@@ -66,7 +59,8 @@ pub(super) fn check(
         });
         if let Some((row, ratio)) = kinks
             .max_by(|a, b| a.1.total_cmp(&b.1))
-            .filter(|k| k.1 > KINK)
+            // A larger ratio of the slopes of neighbouring pieces of a tabulated law is hard on the iteration.
+            .filter(|k| k.1 > 300.0)
         {
             out.push(
                 DoctorCause::LawTangentJump.warning(format!("interface {name}: the slope of the normal law changes by a factor {ratio:.0} at row {row} of its table"))
@@ -138,7 +132,11 @@ pub(super) fn pressureless(
         .filter(|s| interface.schedule.active(s.end))
     {
         let moved = moved(view, interface, x, step)?;
-        let presses = |m: &Vec3| normals.iter().any(|n| dot(*m, *n).abs() > ALONG * norm(*m));
+        let presses = |m: &Vec3| {
+            normals
+                .iter()
+                .any(|n| dot(*m, *n).abs() > NEGLIGIBLE * norm(*m))
+        };
         if moved.iter().any(presses) {
             return slid.map(|early| too_early(interface, early, &step.name));
         }

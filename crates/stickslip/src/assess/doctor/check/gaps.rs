@@ -9,17 +9,12 @@ use super::measured::Measured;
 use crate::assess::view::View;
 use crate::contact::interface::{InterfaceDefinition, Primary, Start};
 use crate::contact::surface::{Facet, turns};
+use crate::tolerance::SAME;
 
-/// Overlap relative to the cell beneath that is a mistake, and that is worth a word.
-const DEEP: f64 = 0.5;
-const SHALLOW: f64 = 0.01;
-
-/// How far facets may stand off, relative to the overlap, and the overlap of surfaces that only touch, relative to the cell beneath.
-const FACETED: f64 = 0.1;
-const ROUNDING: f64 = 1e-9;
-
-/// By how much prescribed motion may be amplified by the bodies on its way to an interface.
-const LEVER: f64 = 10.0;
+/// Overlap relative to the cell beneath that is a mistake. Tuned; it decides what is said, and no result.
+const DEEP_OVERLAP: f64 = 0.5;
+/// Overlap or gap relative to the cell beneath that is worth a word. Tuned; it decides what is said, and no result.
+const SHALLOW_OVERLAP: f64 = 0.01;
 
 pub(super) fn check(
     view: &View,
@@ -40,7 +35,7 @@ pub(super) fn check(
     let size = interface.points[first].size;
     // What is to be done with overlaps has been said where `initial` says it.
     let meant = interface.initial.start != Start::AsMeshed;
-    if smallest < -SHALLOW * size && !(meant && smallest > -DEEP * size) {
+    if smallest < -SHALLOW_OVERLAP * size && !(meant && smallest > -DEEP_OVERLAP * size) {
         let overlapping = gaps.iter().filter(|(_, g)| *g < 0.0).count();
         let finding = DoctorCause::InitialOverlap.warning(format!(
             "interface {}: {overlapping} points overlap at the start, by up to {:.3e}, {:.2} of the cell there",
@@ -48,8 +43,10 @@ pub(super) fn check(
             -smallest,
             -smallest / size
         ))
-        .note_unless(smallest < -DEEP * size);
-        let deep = gaps.iter().take_while(|(_, g)| *g < -SHALLOW * size);
+        .note_unless(smallest < -DEEP_OVERLAP * size);
+        let deep = gaps
+            .iter()
+            .take_while(|(_, g)| *g < -SHALLOW_OVERLAP * size);
         let finding = finding
             .blame_all(deep.map(|&(i, gap)| secondary(interface, i, format!("gap {gap:.3e}"))));
         out.push(match interface.initial.start {
@@ -64,7 +61,8 @@ pub(super) fn check(
     }
     out.extend(faceted(interface, &gaps));
     let reach = travel(view) + flight(model);
-    if smallest > LEVER * reach && smallest > SHALLOW * size && !forced_by_loads(view) {
+    // The bodies may amplify prescribed motion by a factor of ten on its way to an interface.
+    if smallest > 10.0 * reach && smallest > SHALLOW_OVERLAP * size && !forced_by_loads(view) {
         out.push(
             DoctorCause::InitialGap.warning(format!(
                 "interface {} cannot close: its smallest gap is {smallest:.3e}, and what is prescribed, supports and velocities, moves {reach:.3e} at most",
@@ -104,7 +102,8 @@ fn faceted(interface: &InterfaceDefinition, gaps: &[(usize, f64)]) -> Option<Fin
     let off = standing_off(&ours, interface) + standing_off(&theirs, interface);
     let size = interface.points[gaps[0].0].size;
     // Surfaces that only touch overlap by rounding.
-    if off <= FACETED * typical || typical <= ROUNDING * size || 2 * overlaps.len() < gaps.len() {
+    // Facets may stand off by a tenth of the overlap.
+    if off <= 0.1 * typical || typical <= SAME * size || 2 * overlaps.len() < gaps.len() {
         return None;
     }
     let name = &interface.name;

@@ -4,10 +4,8 @@ use super::super::finding::{DoctorCause, Finding};
 use super::super::places::body;
 use super::super::suspect::Suspect;
 use super::common::times;
+use super::strains::LARGE_STRAIN;
 use crate::model::definition::Model;
-
-/// Strain from which nothing of a linear body can be trusted.
-const LARGE: f64 = 0.2;
 
 pub(super) fn check(model: &Model) -> Vec<Finding> {
     let mut out = strained(model);
@@ -39,7 +37,7 @@ pub(super) fn strained(model: &Model) -> Vec<Finding> {
             }
         }
         let (strain, rise, t) = worst;
-        if strain <= LARGE {
+        if strain <= LARGE_STRAIN {
             continue;
         }
         let name = &owner.name;

@@ -9,15 +9,6 @@ use crate::contact::law::normal::NormalLaw;
 use crate::model::scene::Scene;
 use crate::registry::Family;
 
-/// Strain of the cells beneath at the pressure by which laws are compared.
-const WORKING: f64 = 1e-3;
-
-/// Penetration at that pressure, relative to the largest body, of a law that is far too soft.
-const SOFT: f64 = 10.0;
-
-/// Stiffness at that pressure relative to that of the cells beneath of a law that is far too stiff: what is left of a double's digits.
-const STIFF: f64 = 1e10;
-
 /// Gaps and pressures at which functions are tried, relative to the height of the cells beneath and to their modulus.
 const TRIED: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
 
@@ -51,7 +42,8 @@ fn stiffness(interface: &InterfaceDefinition, largest: f64) -> Option<Finding> {
         return None;
     }
     let (beneath, size) = beneath(interface)?;
-    let pressure = WORKING * beneath * size;
+    // Laws are compared at the pressure that strains the cells beneath by a thousandth.
+    let pressure = 1e-3 * beneath * size;
     let at = law.gap(pressure);
     let (depth, stiffness) = (-at.value, -1.0 / at.slope);
     let name = &interface.name;
@@ -62,7 +54,8 @@ fn stiffness(interface: &InterfaceDefinition, largest: f64) -> Option<Finding> {
             .blame(Suspect::key(format!("interface.{name}.normal.{kind}"), ""))
             .advise("check the parameters and units of the normal law: they have to suit the moduli, in Pa and m or in MPa and mm")
     };
-    if depth > SOFT * largest && largest > 0.0 {
+    // A law with a deeper penetration at that pressure, relative to the largest body, is far too soft.
+    if depth > 10.0 * largest && largest > 0.0 {
         return Some(new(
             format!(
                 "interface {name}: the normal law is far too soft: at a pressure that strains the bodies by a thousandth, {pressure:.3e}, surfaces penetrate by \
@@ -74,7 +67,8 @@ fn stiffness(interface: &InterfaceDefinition, largest: f64) -> Option<Finding> {
     }
     let ratio = stiffness / beneath;
     // An infinite ratio included, not a NaN.
-    (ratio > STIFF).then(|| {
+    // A law that is stiffer at that pressure, relative to the cells beneath, is far too stiff: what is left of a double's digits.
+    (ratio > 1e10).then(|| {
         new(
             format!(
                 "interface {name}: the normal law is {ratio:.1e} times as stiff as the cells beneath at a pressure of {pressure:.3e}: rounding makes such a law \

@@ -11,13 +11,6 @@ use crate::assess::view::View;
 use crate::contact::interface::InterfaceDefinition;
 use crate::model::definition::Model;
 
-/// Sizes of primary facets over those of the secondary that are worth a warning.
-const FINER: f64 = 1.0 / 3.0;
-const COARSER: f64 = 8.0;
-
-/// Modulus of the primary over that of the secondary below which it is much softer.
-const SOFTER: f64 = 0.05;
-
 /// Bodies whose cells do not hang together, one finding each.
 pub(crate) fn disconnected(model: &Model) -> Vec<Finding> {
     let mut out = Vec::new();
@@ -121,7 +114,8 @@ pub(super) fn check(
         "swap `secondary` and `primary` of interface {}",
         interface.name
     );
-    if size < FINER {
+    // Primary facets below a third of the size of the secondary are worth a warning.
+    if size < 1.0 / 3.0 {
         out.push(
             DoctorCause::MeshMismatch.warning(format!(
                 "interface {}: the primary (body {theirs}) is {:.1} times finer than the secondary (body {ours})",
@@ -132,7 +126,8 @@ pub(super) fn check(
             .blame(whole(model, &theirs, "finer"))
             .advise(format!("{swap}: contact is checked at the secondary, which should be the finer side")),
         );
-    } else if size > COARSER {
+    } else if size > 8.0 {
+        // So are those of more than eight times the size.
         out.push(
             DoctorCause::MeshMismatch.warning(format!(
                 "interface {}: the cells of the {other} (body {theirs}) are {size:.1} times as large as those of the {own} (body {ours})",
@@ -144,7 +139,8 @@ pub(super) fn check(
         );
     }
     if let Some(ratio) = softer(model, &ours, &theirs)
-        && ratio < SOFTER
+        // A primary with a smaller modulus relative to that of the secondary is much softer.
+        && ratio < 0.05
         && !interface.exchanged
         && size < 1.5
     {

@@ -29,6 +29,7 @@ mod unmoved;
 mod unused;
 mod wear;
 
+pub use curved::WIDEST_CONTACT;
 pub(super) use meshes::disconnected;
 pub(crate) use released::let_go;
 pub(crate) use wear::longest_way;

@@ -9,12 +9,10 @@ use super::common::forced;
 use super::measured::Measured;
 use crate::assess::view::View;
 use crate::contact::response::Status;
-
-/// Gap relative to the cell beneath from which nothing touches.
-const TOUCHING: f64 = 1e-6;
+use crate::tolerance::NEGLIGIBLE;
 
 /// Points of an interface that are asked, about; those that touch are all asked.
-const ASKED: usize = 2000;
+const ASKED_POINTS: usize = 2000;
 
 pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
     let model = view.model;
@@ -33,12 +31,12 @@ pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
             false => Status::Slip,
         };
         let mut opposite = Opposite::new(interface, t);
-        let stride = interface.points.len().div_ceil(ASKED).max(1);
+        let stride = interface.points.len().div_ceil(ASKED_POINTS).max(1);
         for (i, (&gap, beside)) in measured.gaps.iter().zip(&measured.nearest).enumerate() {
             let Some(beside) = beside.filter(|_| gap.is_finite()) else {
                 continue;
             };
-            let touches = gap <= TOUCHING * interface.points[i].size;
+            let touches = gap <= NEGLIGIBLE * interface.points[i].size;
             if !touches && !i.is_multiple_of(stride) {
                 continue;
             }

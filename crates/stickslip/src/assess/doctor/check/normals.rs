@@ -2,6 +2,7 @@
 
 use super::super::finding::{DoctorCause, Finding};
 use super::super::places::{body as whole, secondary};
+use super::super::surfaces::FACING_COSINE;
 use super::super::suspect::{LocationKind, Suspect};
 use super::common::{roles, sides};
 use super::measured::Measured;
@@ -9,11 +10,8 @@ use crate::assess::view::View;
 use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::math::dot;
 
-/// Cosine between outward normals below which two places face each other.
-const FACING: f64 = -0.3;
-
-/// Part of the points of a body inside an obstacle from which the obstacle is inside out.
-const INSIDE: f64 = 0.5;
+/// Part of the points of a body inside an obstacle from which the obstacle is inside out. Tuned; it decides what is said, and no result.
+const INSIDE_OUT: f64 = 0.5;
 
 pub(super) fn check(
     view: &View,
@@ -32,8 +30,8 @@ pub(super) fn check(
         Some(body) => format!("the {other} on body {body}"),
         None => "the obstacle".to_string(),
     };
-    if cosine > FACING {
-        let how = match cosine > -FACING {
+    if cosine > FACING_COSINE {
+        let how = match cosine > -FACING_COSINE {
             true => "look the same way",
             false => "stand at right angles",
         };
@@ -89,7 +87,7 @@ pub(super) fn through(
     let behind = gaps.filter(|(_, (gap, point))| gap.is_finite() && **gap < -point.size);
     let behind: Vec<(usize, f64)> = behind.map(|(i, (gap, _))| (i, *gap)).collect();
     let (i, gap) = *behind.first()?;
-    if behind.len() as f64 <= INSIDE * measured.gaps.len() as f64 {
+    if behind.len() as f64 <= INSIDE_OUT * measured.gaps.len() as f64 {
         return None;
     }
     let name = &interface.name;
@@ -119,7 +117,7 @@ fn inside_out(view: &View, interface: &InterfaceDefinition, ours: &str) -> Optio
         nearest.is_some_and(|n| n.gap < 0.0)
     });
     let share = inside.count() as f64 / points.len().max(1) as f64;
-    (share > INSIDE).then(|| {
+    (share > INSIDE_OUT).then(|| {
         DoctorCause::NormalsNotOpposed.warning(format!(
             "interface {}: {:.0} % of body {ours} lies inside the obstacle: its normal points the wrong way, or the body is on the wrong side",
             interface.name,

@@ -4,15 +4,10 @@ use super::super::finding::{DoctorCause, Finding};
 use super::super::surfaces::spacing;
 use super::super::suspect::Suspect;
 use super::common::median;
+use super::strains::LARGE_STRAIN;
 use crate::contact::interface::InterfaceDefinition;
 use crate::math::distance;
 use crate::model::definition::Model;
-
-/// Points that a wave needs at the least to be told from a longer one (Nyquist).
-const POINTS: f64 = 2.0;
-
-/// Strain that it takes to press waves flat from which nothing of a linear body can be trusted.
-const LARGE: f64 = 0.2;
 
 pub(super) fn check(model: &Model, interface: &InterfaceDefinition) -> Option<Finding> {
     if interface.relief.is_empty() {
@@ -27,7 +22,8 @@ fn aliased(model: &Model, interface: &InterfaceDefinition) -> Option<Finding> {
     let facets = interface.skin.iter().map(|s| spacing(interface, &s.facet));
     let apart = median(facets.collect());
     let (name, shortest) = (&interface.name, waves.1);
-    (shortest < POINTS * apart).then(|| {
+    // A wave needs two points at the least to be told from a longer one (Nyquist).
+    (shortest < 2.0 * apart).then(|| {
         DoctorCause::UnresolvedRoughness.warning(format!(
             "interface {name}: the shortest wave of its roughness is {shortest:.3e} long and its points are {apart:.3e} apart: what they show is another surface, with longer waves or none"
         ))
@@ -64,7 +60,7 @@ fn steep(interface: &InterfaceDefinition) -> Option<Finding> {
     let slope = (squares / lengths).sqrt();
     let strain = slope * std::f64::consts::FRAC_1_SQRT_2;
     let name = &interface.name;
-    (strain > LARGE && strain.is_finite()).then(|| {
+    (strain > LARGE_STRAIN && strain.is_finite()).then(|| {
         DoctorCause::LargeStrain.warning(format!(
             "interface {name}: its roughness has a slope of {slope:.2} in the root mean square between points: to press it flat takes strains of about {strain:.2}, and heights change gaps to first order"
         ))

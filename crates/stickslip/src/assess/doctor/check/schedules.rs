@@ -6,14 +6,8 @@ use crate::model::definition::Model;
 use crate::model::scene::Scene;
 use crate::system::{Amplitude, Course, Schedule};
 
-/// Part of a step in which a factor may not change by half its range.
-const SHORT: f64 = 1e-3;
-
-/// Part of its largest value that a factor changes by when it jumps.
-const JUMP: f64 = 0.5;
-
-/// Part of the largest value of a table that counts as reached.
-const REACHED: f64 = 0.999;
+/// Part of its largest value that a factor changes by when it jumps. Tuned; it decides what is said, and no result.
+const JUMP_OF_FACTOR: f64 = 0.5;
 
 /// Something with a factor in time.
 struct Acting<'a> {
@@ -126,7 +120,8 @@ fn unreached(model: &Model, acting: &Acting) -> Option<Finding> {
     for t in super::common::times(model) {
         seen = seen.max(acting.schedule.at(t).abs());
     }
-    if seen >= REACHED * all {
+    // Part of the largest value of a table that counts as reached.
+    if seen >= 0.999 * all {
         return None;
     }
     let last = rows.last().map_or(end, |r| r[0]);
@@ -150,7 +145,9 @@ fn unread(model: &Model, acting: &Acting) -> Option<Finding> {
     let largest = rows.iter().fold(0.0_f64, |m, r| m.max(r[1].abs()));
     let beyond = rows.iter().filter(|r| r[0] > end * (1.0 + 1e-9));
     let beyond: Vec<&[f64; 2]> = beyond.collect();
-    let changes = beyond.iter().any(|r| (r[1] - last).abs() > JUMP * largest);
+    let changes = beyond
+        .iter()
+        .any(|r| (r[1] - last).abs() > JUMP_OF_FACTOR * largest);
     if !changes {
         return None;
     }
@@ -213,8 +210,9 @@ fn jump(scene: &Scene, acting: &Acting) -> Option<Finding> {
         let within = table.rows().iter();
         rows.extend(within.filter(|r| r[0] > piece.start && r[0] <= piece.end));
         let jumps = rows.windows(2).find(|w| {
-            let short = w[1][0] - w[0][0] < SHORT * length;
-            short && (w[1][1] - w[0][1]).abs() > JUMP * largest
+            // In less of a step a factor may not change by half its range.
+            let short = w[1][0] - w[0][0] < 1e-3 * length;
+            short && (w[1][1] - w[0][1]).abs() > JUMP_OF_FACTOR * largest
         });
         let Some(w) = jumps else {
             continue;

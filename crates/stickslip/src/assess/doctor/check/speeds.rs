@@ -10,12 +10,10 @@ use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::math::norm;
 use crate::model::definition::{Body, Model};
 use crate::model::scene::Scene;
+use crate::tolerance::NEGLIGIBLE;
 
 /// Velocity over that of sound beyond which strains are not small: an impact strains by half of it.
-const FAST: f64 = 0.1;
-
-/// A way apart, relative to the cell beneath, that is one.
-const APART: f64 = 1e-6;
+const LARGEST_MACH: f64 = 0.1;
 
 /// The slowest speed of sound of the elastic bodies.
 fn sound(model: &Model) -> Option<(f64, &Body)> {
@@ -36,7 +34,7 @@ pub(super) fn fast(scene: &Scene) -> Vec<Finding> {
     };
     let mut out = Vec::new();
     let mut judge = |what: &str, name: &str, speed: f64| {
-        if speed > FAST * sound {
+        if speed > LARGEST_MACH * sound {
             out.push(
                 DoctorCause::TooFast.warning(format!(
                     "{what} {name} moves at {speed:.4e}, {:.3} times the speed of sound of body {}, {sound:.4e}: an impact at that speed strains it by \
@@ -78,7 +76,7 @@ pub(super) fn fast(scene: &Scene) -> Vec<Finding> {
         let there = motion.pose(start).inward(x);
         for c in 0..3 {
             let speed = rates(model, |t| motion.pose(t).outward(there)[c], |_| true);
-            if speed > FAST * sound {
+            if speed > LARGEST_MACH * sound {
                 judge("interface", &interface.name, speed);
                 break;
             }
@@ -136,13 +134,13 @@ pub(super) fn apart(
         .initials
         .iter()
         .any(|i| !i.displacements.is_empty());
-    if gap < -APART * size || given || forced_by_loads(scene) {
+    if gap < -NEGLIGIBLE * size || given || forced_by_loads(scene) {
         return None;
     }
     let x = interface.points[i].position(&interface.reference);
     let normal = measured.nearest[i].as_ref()?.normal;
     let way = approach(scene, interface, x, normal)?;
-    if way.most > APART * size || way.least > -APART * size {
+    if way.most > NEGLIGIBLE * size || way.least > -NEGLIGIBLE * size {
         return None;
     }
     let by = |b: &&Body| thrown(model, b).is_some_and(|v| norm(v.0) > 0.0);

@@ -11,8 +11,9 @@ use crate::math::sub;
 use crate::model::definition::{Body, Model};
 use crate::model::scene::Scene;
 
-/// Strain of a whole body from which nothing of a linear body can be trusted; loads that are spread over it strain it by half of what is counted.
-const LARGE: f64 = 0.2;
+/// Strain of a whole body from which nothing of a linear body can be trusted; loads that are spread over it strain it by half of what is
+/// counted. Tuned; it decides what is said, and no result.
+pub(super) const LARGE_STRAIN: f64 = 0.2;
 
 fn finding(message: String) -> Finding {
     DoctorCause::LargeStrain.warning(message)
@@ -58,7 +59,7 @@ fn pulled(model: &Model, body: &Body) -> Option<Finding> {
                     continue;
                 }
                 let strain = (s.schedule.at(t) * u - r.schedule.at(t) * v).abs() / length;
-                if strain > LARGE && strain.is_finite() {
+                if strain > LARGE_STRAIN && strain.is_finite() {
                     let (first, second) = (&r.name, &s.name);
                     return Some(
                         finding(format!(
@@ -107,7 +108,7 @@ fn loaded(model: &Model, body: &Body) -> Option<Finding> {
         }
         for (c, force) in force.iter().enumerate().take(model.dofs.dim) {
             let strain = force.abs() / (modulus * section(c));
-            if strain > LARGE && strain.is_finite() {
+            if strain > LARGE_STRAIN && strain.is_finite() {
                 return Some(
                     finding(format!(
                         "load {} strains body {} by about {strain:.2}: {:.3e} on a section of {:.3e} with a modulus of {modulus:.3e}",
@@ -152,7 +153,7 @@ pub(super) fn pressed(
         })
         .sum();
     let strain = depth / length;
-    if !(strain > LARGE && strain.is_finite()) {
+    if !(strain > LARGE_STRAIN && strain.is_finite()) {
         return None;
     }
     let found = finding(format!(

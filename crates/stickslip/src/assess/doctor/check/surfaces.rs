@@ -15,10 +15,7 @@ use crate::model::scene::Scene;
 use crate::system::Schedule;
 
 /// Part of the points of a surface that is most of it.
-const MOST: f64 = 0.5;
-
-/// Component of a unit normal that a support has to hold to hold the point along it.
-const ALONG: f64 = 0.7;
+const MOST_OF_SURFACE: f64 = 0.5;
 
 /// A surface of an interface: its side in words, its body, the points of the mesh on it and a normal at each.
 struct Surface<'a> {
@@ -87,10 +84,11 @@ fn held(model: &Model, interface: &InterfaceDefinition, surface: &Surface) -> Op
             held.insert(model.dofs.locate(e.dof));
         }
         let along = |(point, normal): &&(usize, Vec3)| {
-            (0..3).any(|c| normal[c].abs() > ALONG && held.contains(&(*point, c)))
+            // A support holds a point along a normal that has a larger component along it.
+            (0..3).any(|c| normal[c].abs() > 0.7 && held.contains(&(*point, c)))
         };
         let count = surface.points.iter().filter(along).count();
-        if (count as f64) <= MOST * surface.points.len() as f64 {
+        if (count as f64) <= MOST_OF_SURFACE * surface.points.len() as f64 {
             continue;
         }
         // A body that is held everywhere stands for a rigid one.
@@ -137,7 +135,7 @@ fn stiffened(scene: &Scene, interface: &InterfaceDefinition, surface: &Surface) 
         // A body that is led everywhere stands for a rigid one.
         let elsewhere = led.iter().any(|p| beyond.contains(p) && !on.contains(p));
         let both = together(model, &coupling.schedule, &interface.schedule);
-        if (count as f64) <= MOST * on.len() as f64 || elsewhere || !both {
+        if (count as f64) <= MOST_OF_SURFACE * on.len() as f64 || elsewhere || !both {
             continue;
         }
         let (name, ours) = (&interface.name, &surface.body.name);
@@ -167,7 +165,7 @@ fn loaded(model: &Model, interface: &InterfaceDefinition, surface: &Surface) -> 
         let inside = acted.iter().filter(|p| on.contains(p)).count();
         // A surface that is the whole of a body, or one point of it, may well be loaded.
         let all = acted.len() < inside + 1 && on.len() < surface.body.points.len();
-        if inside < 2 || !all || (inside as f64) <= MOST * on.len() as f64 {
+        if inside < 2 || !all || (inside as f64) <= MOST_OF_SURFACE * on.len() as f64 {
             continue;
         }
         let (name, ours) = (&interface.name, &surface.body.name);
@@ -201,7 +199,8 @@ pub(crate) fn doubled(scene: &Scene) -> Option<Finding> {
             }
             let common = |x: usize, y: usize| {
                 let both = sets[a][x].intersection(&sets[b][y]).count();
-                both as f64 > MOST * sets[a][x].len().min(sets[b][y].len()) as f64 && both > 0
+                both as f64 > MOST_OF_SURFACE * sets[a][x].len().min(sets[b][y].len()) as f64
+                    && both > 0
             };
             let opposite = match (&first.primary, &second.primary) {
                 (Primary::Rigid(s, m), Primary::Rigid(t, n)) => (s == t && m == n) && common(0, 0),

@@ -10,9 +10,6 @@ use crate::assess::view::View;
 use crate::contact::interface::InterfaceDefinition;
 use crate::math::{dot, norm, scale, sub};
 
-/// Part by which the height may exceed the radius without a word: a wheel under its own weight stands as well here as there.
-const NEUTRAL: f64 = 1e-3;
-
 /// A body under dead loads that roll it off what it stands on. When it rolls by an angle `θ` over a contact with the curvature `κ` between the surfaces, a load at the height `h` above the
 /// contact sinks by `(h - 1/κ) θ²/2`: where that is positive it is at rest in the middle only, and any push brings it down.
 pub(super) fn check(view: &View, interface: &InterfaceDefinition) -> Option<Finding> {
@@ -61,7 +58,8 @@ pub(super) fn check(view: &View, interface: &InterfaceDefinition) -> Option<Find
             continue;
         }
         let height = moment / pressed;
-        if curvature <= 0.0 || height * curvature <= 1.0 + NEUTRAL {
+        // The height may exceed the radius by a thousandth without a word: a wheel under its own weight stands as well here as there.
+        if curvature <= 0.0 || height * curvature <= 1.0 + 1e-3 {
             continue;
         }
         let name = &interface.name;

@@ -14,8 +14,8 @@ use crate::model::definition::Model;
 /// Ratios between the units of length, stress and their squares.
 const FACTORS: [f64; 3] = [1e3, 1e6, 1e9];
 
-/// How near to such a ratio counts.
-const NEAR: f64 = 2.0;
+/// How near to such a ratio counts. Tuned; it decides what is said, and no result.
+const NEAR_RATIO: f64 = 2.0;
 
 /// Moduli from soft gels to diamond `[Pa]`.
 const MODULI: [f64; 2] = [1e2, 2e12];
@@ -26,8 +26,8 @@ const SYSTEMS: [[f64; 2]; 3] = [[1.0, 1.0], [1e6, 1e-3], [6894.757, 0.0254]];
 /// Speeds of sound in solids `[m/s]`.
 const SPEEDS: [f64; 2] = [10.0, 2e4];
 
-/// Moduli above which a material in pascals is a metal, a ceramic or a hard plastic `[Pa]`.
-const HARD: f64 = 1e9;
+/// Moduli above which a material in pascals is a metal, a ceramic or a hard plastic `[Pa]`. Soft plastics and rubbers have less.
+const HARD_MODULUS: f64 = 1e9;
 
 /// Speeds of sound in hard solids `[m/s]`: lead has 1200, a porous ceramic less.
 const HARD_SPEEDS: [f64; 2] = [500.0, 2e4];
@@ -35,21 +35,8 @@ const HARD_SPEEDS: [f64; 2] = [500.0, 2e4];
 /// Densities of solids, foams included `[kg/m³]`.
 const DENSITIES: [f64; 2] = [1.0, 3e4];
 
-/// Densities that differ by less are those of materials of one kind.
-const ALIKE: f64 = 2.0;
-
-/// Thickness over the size of the largest body that is hardly in the same unit, both ways; one of exactly 1 is the unit of length.
-const THICK: f64 = 50.0;
-const THIN: f64 = 2e-4;
-
-/// Size of a body of hard material that is hardly a length in metres.
-const HUGE: f64 = 20.0;
-
-/// Size of a body with a modulus in megapascals that is hardly a length in millimetres.
-const TINY: f64 = 0.1;
-
-/// Ratio of the sizes of two bodies beyond which one of them is in other units.
-pub(super) const SIZES: f64 = 300.0;
+/// Ratio of the sizes of two bodies beyond which one of them is in other units. Tuned; it decides what is said, and no result.
+pub(super) const SIZE_RATIO: f64 = 300.0;
 
 /// A body in numbers.
 struct Numbers<'a> {
@@ -125,7 +112,7 @@ fn moduli(model: &Model, all: &[Numbers]) -> Option<Finding> {
     let ratio = hard.modulus / soft.modulus;
     let factor = FACTORS
         .into_iter()
-        .find(|f| ratio > f / NEAR && ratio < f * NEAR)?;
+        .find(|f| ratio > f / NEAR_RATIO && ratio < f * NEAR_RATIO)?;
     let remark = |n: &Numbers| format!("modulus {:.3e}", n.modulus);
     let found = finding(format!(
         "the moduli of bodies {} and {} differ by a factor {ratio:.3e}, near the ratio {factor:.0e} of two units",
@@ -134,7 +121,8 @@ fn moduli(model: &Model, all: &[Numbers]) -> Option<Finding> {
     // Metal on plastic is a common pair and differs by a thousand as well; plastics are light.
     let alike = hard.density > 0.0 && soft.density > 0.0 && {
         let ratio = hard.density / soft.density;
-        ratio.max(1.0 / ratio) < ALIKE
+        // Densities that differ by less are those of materials of one kind.
+        ratio.max(1.0 / ratio) < 2.0
     };
     let place = |n: &Numbers| body(model, &n.body.name, remark(n));
     let found = found.note_unless(factor >= 1e4 || alike);
@@ -147,7 +135,7 @@ fn densities(model: &Model, all: &[Numbers]) -> Option<Finding> {
     let heavy = given().max_by(|a, b| a.density.total_cmp(&b.density))?;
     let light = given().min_by(|a, b| a.density.total_cmp(&b.density))?;
     let ratio = heavy.density / light.density;
-    let near = |f: &f64| ratio > f / NEAR && ratio < f * NEAR;
+    let near = |f: &f64| ratio > f / NEAR_RATIO && ratio < f * NEAR_RATIO;
     let factor = FACTORS.into_iter().chain([1e12]).find(near)?;
     let remark = |n: &Numbers| format!("density {:.3e}", n.density);
     Some(
@@ -167,7 +155,9 @@ fn thickness(model: &Model, all: &[Numbers]) -> Option<Finding> {
     };
     let largest = all.iter().map(|n| n.size).reduce(f64::max)?;
     let ratio = thickness / largest;
-    let far = !(THIN..=THICK).contains(&ratio) && thickness != 1.0;
+    // A thickness beyond this, over the size of the largest body, is hardly in the same unit, both ways; one of exactly 1 is the unit of
+    // length.
+    let far = !(2e-4..=50.0).contains(&ratio) && thickness != 1.0;
     far.then(|| {
         finding(format!(
             "the thickness of {thickness} is {ratio:.3e} times the size of the largest body, {largest:.3e}: is one in millimetres and the other in metres?"
@@ -181,7 +171,7 @@ fn sizes(model: &Model, all: &[Numbers]) -> Option<Finding> {
     let large = all.iter().max_by(|a, b| a.size.total_cmp(&b.size))?;
     let small = all.iter().min_by(|a, b| a.size.total_cmp(&b.size))?;
     let ratio = large.size / small.size;
-    if ratio.is_nan() || ratio < SIZES {
+    if ratio.is_nan() || ratio < SIZE_RATIO {
         return None;
     }
     let remark = |n: &Numbers| format!("size {:.3e}", n.size);
@@ -218,7 +208,7 @@ fn alone(model: &Model, n: &Numbers, heavy: bool) -> Option<Finding> {
         let speed = (n.modulus / n.density).sqrt();
         let mut systems = SYSTEMS.iter().filter(|s| plausible(s));
         if !systems.any(|[stress, length]| {
-            let speeds = match stress * n.modulus >= HARD {
+            let speeds = match stress * n.modulus >= HARD_MODULUS {
                 true => HARD_SPEEDS,
                 false => SPEEDS,
             };
@@ -234,7 +224,8 @@ fn alone(model: &Model, n: &Numbers, heavy: bool) -> Option<Finding> {
             ));
         }
     }
-    if n.modulus > HARD && si && !mm && n.size > HUGE {
+    // A body of hard material of more than 20 m is hardly given in metres.
+    if n.modulus > HARD_MODULUS && si && !mm && n.size > 20.0 {
         return Some(blame(
             finding(format!(
                 "body {name} is {:.3e} large and its modulus {:.3e}: is the mesh in millimetres and the modulus in Pa?",
@@ -244,7 +235,8 @@ fn alone(model: &Model, n: &Numbers, heavy: bool) -> Option<Finding> {
         ));
     }
     let metal = within(1e6 * n.modulus, [1e10, MODULI[1]]);
-    if metal && n.size < TINY {
+    // A body with a modulus in megapascals of less than 0.1 mm is hardly given in millimetres.
+    if metal && n.size < 0.1 {
         return Some(blame(
             finding(format!(
                 "body {name} is {:.3e} large and its modulus {:.3e}: is the mesh in metres and the modulus in MPa?",

@@ -14,7 +14,7 @@ use crate::model::scene::Scene;
 use crate::registry::Family;
 
 /// Modulus over hardness of the softest metals: lead, tin and annealed aluminium have 400 to 1000, steels 50 to 200, polymers and ceramics 10 to 40.
-const SOFTEST: f64 = 1e3;
+const SOFTEST_METAL: f64 = 1e3;
 
 /// Rates of wear that are those of no surface. Archard's `K = k H` is the part of its contacts in which a surface loses a particle of the size of the contact
 /// ([Archard 1953](crate::references::archard_1953)), and no part is above one: a rate `k` is below `1 / H`, and that below `1000 / E`.
@@ -38,13 +38,13 @@ fn too_fast(model: &Model, interface: &InterfaceDefinition) -> Option<Finding> {
         let (m, g) = (c[0][0], c[3][3]);
         let young = g * (3.0 * m - 4.0 * g) / (m - g);
         let rate = rate.per_path(shear);
-        let part = rate * young / SOFTEST;
+        let part = rate * young / SOFTEST_METAL;
         (part > 1.0 && part.is_finite()).then(|| {
             let kind = interface.laws.wear.kind();
             DoctorCause::LawOutOfRange.warning(format!(
                 "interface {}: its {side}, body {name}, wears by {rate:.3e} of depth over pressure and path. Times its hardness that is Archard's dimensionless coefficient, which is a probability: with a modulus of {young:.3e} the rate of no surface is above {:.3e}",
                 interface.name,
-                SOFTEST / young
+                SOFTEST_METAL / young
             ))
             .blame(Suspect::key(format!("interface.{}.wear.{kind}", interface.name), format!("{rate:.3e}")))
             .blame(super::super::places::body(model, &name, format!("modulus {young:.3e}")))

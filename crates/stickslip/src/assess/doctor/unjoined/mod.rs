@@ -4,7 +4,7 @@ mod placed;
 
 use std::collections::BTreeSet;
 
-use placed::{Boundary, NEAR, Overlap, Placed, ROUNDING, boundaries, gap};
+use placed::{Boundary, Overlap, Placed, TOUCHING_DISTANCE, boundaries, gap};
 
 use super::finding::{DoctorCause, Finding};
 use super::places::{body as body_at, bounds};
@@ -15,12 +15,10 @@ use crate::math::{Vec3, distance};
 use crate::model::definition::{Model, Support};
 use crate::model::scene::Scene;
 use crate::system::Motion;
-
-/// Part of the motion of two bodies against each other by which they have to overlap more than at the start.
-const DEEPER: f64 = 1e-3;
+use crate::tolerance::SAME;
 
 /// Points of an interface at which obstacles are compared, about.
-const ASKED: usize = 20;
+const OBSTACLE_POINTS: usize = 20;
 
 /// What a body is not joined to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -106,7 +104,7 @@ impl MissingInterface {
         for pair in self.pairs.iter().filter(|p| p.until < start) {
             let placed = Placed { scene, u, t: start };
             let names = names(scene, pair);
-            let deep = pair.start.depth > NEAR * pair.start.facet;
+            let deep = pair.start.depth > TOUCHING_DISTANCE * pair.start.facet;
             let driven = model
                 .steps
                 .iter()
@@ -216,7 +214,7 @@ impl MissingInterface {
 impl Pair {
     /// Whether the two did not overlap at the start by more than facets of curved surfaces do.
     fn was_apart(&self) -> bool {
-        self.start.depth <= NEAR * self.start.facet
+        self.start.depth <= TOUCHING_DISTANCE * self.start.facet
     }
 }
 
@@ -234,12 +232,12 @@ fn first(scene: &Scene, i: usize) -> bool {
 
 /// Whether two interfaces have one obstacle. Each counts coordinates from a place of its own, so surfaces are compared where the points are.
 fn same(model: &Model, a: &InterfaceDefinition, b: &InterfaceDefinition) -> bool {
-    let rounding = ROUNDING * model.size;
+    let rounding = SAME * model.size;
     let times = model.steps.iter().flat_map(|s| [s.start, s.end]);
     let asked: Vec<Vec3> = [a, b]
         .into_iter()
         .flat_map(|i| {
-            let stride = i.points.len().div_ceil(ASKED).max(1);
+            let stride = i.points.len().div_ceil(OBSTACLE_POINTS).max(1);
             let points = i.points.iter().step_by(stride);
             points.map(|p| i.place(p))
         })
@@ -406,7 +404,8 @@ impl MissingInterface {
 
 /// Whether an overlap is more than at the start, and more than rounding, of two that have moved so far against each other.
 fn worse(placed: &Placed, found: &Overlap, pair: &Pair, moved: f64) -> bool {
-    let least = (DEEPER * moved).max(ROUNDING * placed.scene.model.size);
+    // Two bodies have to overlap more than at the start by this part of their motion against each other.
+    let least = (1e-3 * moved).max(SAME * placed.scene.model.size);
     found.depth - pair.start.depth > least
 }
 

@@ -11,15 +11,14 @@ use crate::math::{Vec3, add, distance, dot, sub};
 use crate::model::definition::Model;
 use crate::model::scene::Scene;
 use crate::shape::ElementKind;
+use crate::tolerance::SAME;
 
-/// Part of the size of the model that is rounding.
-pub(super) const ROUNDING: f64 = 1e-9;
+/// Part of a facet within which surfaces touch, and that curved ones may overlap by as they are meshed. Tuned; it decides what is said, and
+/// no result.
+pub(super) const TOUCHING_DISTANCE: f64 = 0.05;
 
-/// Part of a facet within which surfaces touch, and that curved ones may overlap by as they are meshed.
-pub(super) const NEAR: f64 = 0.05;
-
-/// Product of unit normals below which surfaces face each other.
-const FACING: f64 = -0.7;
+/// Product of unit normals below which surfaces face each other. Tuned; it decides what is said, and no result.
+const OPPOSITE_COSINE: f64 = -0.7;
 
 /// The boundary of a body.
 #[derive(Debug, Clone, Default)]
@@ -81,7 +80,7 @@ impl Placed<'_> {
     /// The deepest of the points of one boundary within another body.
     pub(super) fn inside(&self, points: &Boundary, body: &Boundary) -> Overlap {
         let (low, high) = self.bounds(body);
-        let rounding = ROUNDING * self.scene.model.size;
+        let rounding = SAME * self.scene.model.size;
         let flat = self.scene.model.mesh.dim;
         let within =
             |x: &Vec3| (0..flat).all(|c| x[c] > low[c] + rounding && x[c] < high[c] - rounding);
@@ -154,7 +153,7 @@ impl Placed<'_> {
             let x = self.nodes(&f.1);
             distance(x[0], x[1])
         });
-        let reach = NEAR * longest.fold(0.0, f64::max);
+        let reach = TOUCHING_DISTANCE * longest.fold(0.0, f64::max);
         let places: Vec<(Vec3, Vec3)> = (self.places(one).into_iter())
             .filter_map(|(x, n)| Some((x, n?)))
             .filter(|(x, _)| (0..3).all(|c| x[c] >= low[c] - reach && x[c] <= high[c] + reach))
@@ -166,7 +165,9 @@ impl Placed<'_> {
         let touches = |(x, normal): &(Vec3, Vec3)| {
             let near = self.nearest(other, &tree, *x);
             near.is_some_and(|n| {
-                n.within && n.away <= NEAR * n.facet && dot(n.normal, *normal) < FACING
+                n.within
+                    && n.away <= TOUCHING_DISTANCE * n.facet
+                    && dot(n.normal, *normal) < OPPOSITE_COSINE
             })
         };
         places.into_iter().find(touches).map(|p| p.0)
@@ -202,7 +203,9 @@ impl Placed<'_> {
             let nodes = self.nodes(&facet.1);
             let size = distance(nodes[0], nodes[1]);
             let foot = gap(interface, *x, self.t);
-            foot.is_some_and(|(gap, n)| gap.abs() <= NEAR * size && dot(n, *normal) < FACING)
+            foot.is_some_and(|(gap, n)| {
+                gap.abs() <= TOUCHING_DISTANCE * size && dot(n, *normal) < OPPOSITE_COSINE
+            })
         });
         found.map(|((x, _), _)| x)
     }
