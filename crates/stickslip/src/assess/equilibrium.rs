@@ -1,7 +1,7 @@
 //! The balance of each body: what acts on it from outside has no resultant.
 
 use super::figures::EQUILIBRIUM;
-use super::quality::Gate;
+use super::gate::Gate;
 use super::view::View;
 use crate::body::Space;
 use crate::math::{Vec3, add, cross, norm, sub};

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::doctor::{DoctorCause, Finding};
 
 /// A figure of the gate: an amount of something that should not be, relative to a scale of the same kind. One row below, a limit in
-/// [`Limits`](crate::model::limits::Limits) and a call of [`Gate::note`](super::quality::Gate) make a figure.
+/// [`Limits`](crate::model::limits::Limits) and a call of [`Gate::note`](super::gate::Gate) make a figure.
 ///
 /// Where next to nothing acts, rounding and tolerances are as large as what there is, and a ratio says nothing. So amount and scale are kept
 /// apart, and the scale counts as at least a part of the largest of the whole run, be it before or after.

@@ -1,7 +1,7 @@
 //! What the stress that vibrations begin from would do to their frequencies, which are found without it.
 
 use super::figures::PRESTRESS;
-use super::quality::Gate;
+use super::gate::Gate;
 use super::view::View;
 use crate::body::{prestress, recover};
 use crate::model::limits::{GateMode, Limits};

@@ -1,8 +1,8 @@
 //! Judges what small rotations leave out at interfaces.
 
 use super::figures::ROTATION_TO_APPROACH;
+use super::gate::Gate;
 use super::missed::{Turned, missed_gaps};
-use super::quality::Gate;
 use super::view::View;
 use crate::contact::interface::ContactView;
 use crate::contact::look;

@@ -2,7 +2,7 @@
 
 use super::doctor::{self, DoctorCause, Finding, LocationKind, Suspect};
 use super::figures::{DISPLACEMENT, LOCAL_ROTATION, ROTATION, STRAIN};
-use super::quality::Gate;
+use super::gate::Gate;
 use super::view::View;
 use crate::assess::rotation;
 use crate::body::{Turning, turning};

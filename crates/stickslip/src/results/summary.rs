@@ -3,7 +3,8 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::assess::doctor::Finding;
-use crate::assess::quality::{Gate, InterfaceSummary};
+use crate::assess::gate::Gate;
+use crate::assess::quality::InterfaceSummary;
 use crate::error::Error;
 use crate::fatigue::Maximum;
 use crate::linear::EngineReport;

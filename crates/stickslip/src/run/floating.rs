@@ -31,7 +31,7 @@ pub(super) fn prepare_floating(
     }
     if released::is_to_keep_bodies(&run.solver, &run.model, &run.frame, trial) {
         flush(run, observers)?;
-        released::keep_bodies(
+        follow::keep_bodies(
             &mut run.solver,
             &run.model,
             &run.frame,

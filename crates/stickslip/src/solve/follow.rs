@@ -324,3 +324,15 @@ pub fn restart_from_rigid_motion(
     set_displacements(solver, model, frame, contact, u);
     anchor(solver, model, frame, contact, trial);
 }
+
+/// Anchors floating bodies whose loads go where they are.
+pub fn keep_bodies(
+    solver: &mut Solver,
+    model: &Model,
+    frame: &Frame,
+    contact: &mut Contact,
+    trial: Trial,
+) {
+    solver.floating.stay = true;
+    anchor(solver, model, frame, contact, trial);
+}

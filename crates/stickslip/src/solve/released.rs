@@ -4,12 +4,10 @@ use super::accepted::Accepted;
 use super::floating_bodies::{Floating, no_load};
 use super::solver::Solver;
 use crate::math::norm;
-use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::model::rigid::free_bodies::FreeBody;
 use crate::model::scene::Scene;
-use crate::solve::follow;
 use crate::time::Trial;
 use crate::tolerance::NEGLIGIBLE;
 
@@ -88,18 +86,6 @@ pub fn is_to_keep_bodies(solver: &Solver, model: &Model, frame: &Frame, trial: T
         && !floating.no_progress
         && !floating.bodies().is_empty()
         && lose_load(floating, model, frame, trial)
-}
-
-/// Anchors floating bodies whose loads go where they are.
-pub fn keep_bodies(
-    solver: &mut Solver,
-    model: &Model,
-    frame: &Frame,
-    contact: &mut Contact,
-    trial: Trial,
-) {
-    solver.floating.stay = true;
-    follow::anchor(solver, model, frame, contact, trial);
 }
 
 /// Notes which floating bodies nothing presses any more after an increment that was found.

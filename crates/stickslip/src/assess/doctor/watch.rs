@@ -6,7 +6,7 @@ use super::finding::{DoctorCause, Finding};
 use super::places;
 use super::suspect::Suspect;
 use crate::assess::view::View;
-use crate::assess::{quality, travel};
+use crate::assess::{scale, travel};
 use crate::body::turning;
 use crate::contact::interface::{ContactView, InterfaceDefinition};
 use crate::contact::look;
@@ -87,7 +87,7 @@ pub(crate) fn watched(view: &View, watches: &[Watch]) -> Vec<Finding> {
     let interfaces = view.contacts();
     let pairs = interfaces.zip(watches);
     // A force below this part of what the displacements would make as strains is rounding.
-    let nothing = 1e-11 * quality::strain_force(view);
+    let nothing = 1e-11 * scale::strain_force(view);
     let mut out = strained(view);
     out.extend(
         pairs
