@@ -67,7 +67,7 @@ pub fn around(body: &Elastic, point: usize) -> Option<Around> {
 }
 
 impl Around {
-    /// Stress at the point `[Pa]`, the same as [`Elastic::nodal_stress`] has there, at displacements of the whole mesh.
+    /// Stress at the point `[Pa]`, the same as [`nodal_stress`](super::fields::nodal_stress) has there, at displacements of the whole mesh.
     pub fn stress<'a>(&self, dofs: Dofs, at: impl Into<At<'a>>) -> [f64; 6] {
         let At { u, warm } = at.into();
         let own: Vec<f64> = self

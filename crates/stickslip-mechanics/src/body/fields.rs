@@ -103,7 +103,7 @@ pub fn nodal_stress<'a>(body: &Elastic, at: impl Into<At<'a>>) -> Vec<[f64; 6]> 
 }
 
 /// Strain at the body's points, six components with engineering shear strains, and behind them the strain energy per volume `[J/m³]`
-/// without that of hourglass control: extrapolated and averaged as [`nodal_stress`](Elastic::nodal_stress) does. The strain across a
+/// without that of hourglass control: extrapolated and averaged as [`nodal_stress`] does. The strain across a
 /// body in plane stress is not filled in.
 fn nodal_strain(body: &Elastic, at: At) -> Vec<[f64; 7]> {
     let mut sums = Sums::new(body.mesh.points.len(), strain_and_energy);

@@ -32,7 +32,7 @@ impl FrictionSolver for GaussSeidel {
         let stiffness = problem.stiffness();
         let own: Vec<[f64; 9]> = (0..problem.points()).map(|k| problem.own(k)).collect();
         let mut forces = start.to_vec();
-        let mut best = Best::new(&forces, map::error(problem, &forces));
+        let mut best = Best::new(&forces, map::friction_error(problem, &forces));
         let patience = LOOK_PATIENCE.max(self.sweeps / (10 * SWEEPS_A_LOOK));
         let mut seen = vec![best.error()];
         for sweep in 1..=self.sweeps {
@@ -42,7 +42,7 @@ impl FrictionSolver for GaussSeidel {
             if sweep % SWEEPS_A_LOOK != 0 && sweep != self.sweeps {
                 continue;
             }
-            best.see(&forces, map::error(problem, &forces));
+            best.see(&forces, map::friction_error(problem, &forces));
             seen.push(best.error());
             let gains = match seen.len().checked_sub(patience + 1) {
                 // The part to which the error must have fallen.

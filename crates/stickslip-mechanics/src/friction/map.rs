@@ -78,7 +78,7 @@ pub(super) fn trial(r: &[f64], u: &[f64], rho: f64) -> [f64; 3] {
 }
 
 /// How far forces are from a solution: the norm of the [natural map](natural_map) relative to that of the free motion.
-pub fn error(problem: &FrictionProblem, forces: &[f64]) -> f64 {
+pub fn friction_error(problem: &FrictionProblem, forces: &[f64]) -> f64 {
     let map = natural_map(problem, &problem.stiffness(), forces);
     norm(&map) / norm(&problem.free).max(f64::MIN_POSITIVE)
 }

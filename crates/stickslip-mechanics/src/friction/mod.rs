@@ -7,7 +7,7 @@
 //! - [`NewtonInForces`] is strong where elasticity couples many points and friction is large;
 //! - [`ProximalPoint`] makes singular problems regular, and takes away in the end what it added.
 //!
-//! What counts is the norm of the natural map, [`FrictionProblem::error`].
+//! What counts is the norm of the natural map, [`friction_error`].
 
 pub mod cone;
 mod gauss_seidel;
@@ -26,6 +26,7 @@ pub mod text;
 mod tests;
 
 pub use gauss_seidel::GaussSeidel;
+pub use map::friction_error;
 pub use map::natural_map;
 pub use newton::{Length, NewtonInForces, Step};
 pub use portfolio::{Solution, Tried, solve};

@@ -23,7 +23,7 @@ pub struct Solution {
     pub forces: Vec<f64>,
     /// `u = W r + q`, of shape `(n,)`.
     pub motion: Vec<f64>,
-    /// The [error](FrictionProblem::error) of the forces.
+    /// The [error](super::friction_error) of the forces.
     pub error: f64,
     /// Whether it is within the tolerance.
     pub solved: bool,
@@ -52,7 +52,7 @@ pub fn solve(problem: &FrictionProblem, guess: Option<&[f64]>, tolerance: f64) -
     let guess = guess.map_or_else(|| vec![0.0; problem.size()], <[f64]>::to_vec);
     let mut swept = guess.clone();
     let mut best = guess.clone();
-    let mut error = map::error(problem, &best);
+    let mut error = map::friction_error(problem, &best);
     let mut tried = Vec::new();
     for (solver, start) in members() {
         if error <= tolerance {

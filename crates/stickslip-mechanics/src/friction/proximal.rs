@@ -26,7 +26,7 @@ impl FrictionSolver for ProximalPoint {
         let (d, n) = (problem.dimension, problem.size());
         let inner = NewtonInForces::new(Step::Proximal, Length::Falling);
         let mut forces = start.to_vec();
-        let mut best = Best::new(&forces, map::error(problem, &forces));
+        let mut best = Best::new(&forces, map::friction_error(problem, &forces));
         // The artificial compliance, relative to that of the point.
         let mut added = 1.0;
         let mut iterations = 0;
@@ -52,7 +52,7 @@ impl FrictionSolver for ProximalPoint {
             }
             if found.error <= wanted {
                 forces = found.forces;
-                best.see(&forces, map::error(problem, &forces));
+                best.see(&forces, map::friction_error(problem, &forces));
                 // The next problem is nearer to the given one after one that was solved, and farther from it after one that was not.
                 added = (added * 0.3).max(1e-8);
             } else {

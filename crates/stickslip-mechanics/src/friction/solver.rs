@@ -5,7 +5,7 @@ use super::problem::FrictionProblem;
 pub struct Iterate {
     /// The best forces it has seen.
     pub forces: Vec<f64>,
-    /// Their [error](FrictionProblem::error).
+    /// Their [error](super::friction_error).
     pub error: f64,
     /// Iterations or sweeps it took.
     pub iterations: usize,

@@ -10,7 +10,7 @@ use crate::mesh::geometry;
 const COLLAPSED: f64 = 1e-8;
 
 /// Checks the structure (indices in range, lengths that fit), the coordinates and the Jacobian of every cell at
-/// its quadrature points and corners. Unused points are allowed: see [`Mesh::unused_points`].
+/// its quadrature points and corners. Unused points are allowed: see [`unused_points`].
 ///
 /// # Errors
 /// The first finding, with the user's number of the point or cell.

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::{Block, CellRef, FacetRef, Mesh};
 use crate::error::MeshError;
 
-/// Where [`Mesh::append`] put the points and blocks of the other mesh.
+/// Where [`append`] put the points and blocks of the other mesh.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Appended {
     /// Positions of its points.

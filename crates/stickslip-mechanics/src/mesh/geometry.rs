@@ -42,7 +42,7 @@ pub fn diameter(mesh: &Mesh) -> f64 {
     bounding_box(mesh).map_or(0.0, |(lo, hi)| distance(lo, hi))
 }
 
-/// See [`Mesh::jacobian`].
+/// See [`cell_jacobian`].
 fn jacobian(kind: ElementKind, xi: [f64; 3], point: impl Fn(usize) -> Vec3) -> Mat3 {
     let mut d = [[0.0; 3]; MAX_NODES];
     let d = &mut d[..kind.node_count()];

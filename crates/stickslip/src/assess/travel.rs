@@ -37,7 +37,7 @@ pub(crate) fn judge_travel(
         let place = format!("body {}", body.name);
         let turning = turning(view, body, &strained);
         *largest = largest.max(turning.mean);
-        turns.push(match has_frames(view, body) {
+        turns.push(match view.model.has_frames(body) {
             true => [0.0; 3],
             false => turning.vector,
         });
@@ -50,7 +50,7 @@ pub(crate) fn judge_travel(
             gate.note(&LOCAL_ROTATION, &place, pair, limits.local_rotation, t);
         }
         // Of the others who asked for it wants to know.
-        let asked = has_frames(view, body) || limits.strain.is_some();
+        let asked = view.model.has_frames(body) || limits.strain.is_some();
         if asked && body.rigid.is_none() {
             let pair = [turning::strain_level(&body.elastic, &*strained), 1.0];
             gate.note(&STRAIN, &place, pair, limits.strain_limit(), t);
@@ -84,14 +84,6 @@ fn judge_references(view: &View, limits: &Limits, gate: &mut Gate) {
             gate.note(&ROTATION, &place, [turned, 1.0], limits.rotation, t);
         }
     }
-}
-
-/// Whether it turns by any angle in frames of its own or one that a reference point carries.
-pub(crate) fn has_frames(view: &View, body: &Body) -> bool {
-    let first = body.points.start;
-    body.elastic.is_corotational()
-        || view.model.corotations.of_point(first).is_some()
-        || view.model.frames.of_point(first).is_some()
 }
 
 /// How far a body has turned at the last accepted state.

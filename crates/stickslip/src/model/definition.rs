@@ -238,6 +238,14 @@ pub struct Dynamic {
 }
 
 impl Model {
+    /// Whether a body turns by any angle, in frames of its own or one that a reference point carries.
+    pub(crate) fn has_frames(&self, body: &Body) -> bool {
+        let first = body.points.start;
+        body.elastic.is_corotational()
+            || self.corotations.of_point(first).is_some()
+            || self.frames.of_point(first).is_some()
+    }
+
     /// Whether any step is dynamic.
     pub fn moves(&self) -> bool {
         self.steps.iter().any(|s| s.dynamic.is_some())

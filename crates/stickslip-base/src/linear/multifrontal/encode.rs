@@ -60,7 +60,7 @@ pub fn write_factor(factor: &PartialFactor, out: &mut dyn Write) -> io::Result<(
     Ok(())
 }
 
-/// Reads what [`encode`](PartialFactor::encode) wrote. Memory grows with what is read, whatever the counts say.
+/// Reads what [`write_factor`] wrote. Memory grows with what is read, whatever the counts say.
 ///
 /// # Errors
 /// Those of `input`; [`io::ErrorKind::InvalidData`] for anything that is not a factor. Changed numbers of a

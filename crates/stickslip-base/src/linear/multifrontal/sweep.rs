@@ -47,7 +47,7 @@ pub fn forward(factor: &PartialFactor, interior: &mut [f64], root: &mut [f64], c
 }
 
 /// `u_I := L_II⁻ᵀ (y - L_CIᵀ u_C)` in place of `interior`, which holds `y`; `root` holds `u_C`. Layout as in
-/// [`forward`](PartialFactor::forward).
+/// [`forward`].
 ///
 /// # Panics
 /// If `interior` or `root` has the wrong length.

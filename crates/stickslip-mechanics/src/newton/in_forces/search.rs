@@ -30,7 +30,7 @@ pub(super) fn search(
     let (mut first, mut before) = (None, f64::INFINITY);
     loop {
         let problem = columns.problem(chosen, &forces, &du);
-        let error = map::error(&problem, &forces);
+        let error = map::friction_error(&problem, &forces);
         // Such a part of the error of the forces before is good enough for a pass: the next one begins where this one ends.
         let enough = 1e-3 * *first.get_or_insert(error);
         let done = before.is_finite() && error <= enough.max(FRICTION_ERROR);

@@ -5,8 +5,8 @@ use serde::Serialize;
 use super::finding::{DoctorCause, Finding};
 use super::places;
 use super::suspect::Suspect;
+use crate::assess::scale;
 use crate::assess::view::View;
-use crate::assess::{scale, travel};
 use crate::body::turning;
 use crate::contact::interface::{ContactView, InterfaceDefinition};
 use crate::contact::look;
@@ -118,7 +118,7 @@ fn strained(view: &View) -> Vec<Finding> {
     let limits = &view.model.reports.quality;
     let limit = limits.strain_limit();
     // Where a limit is given the gate judges all bodies.
-    let judged = |b: &&Body| travel::has_frames(view, b) || limits.strain.is_some();
+    let judged = |b: &&Body| view.model.has_frames(b) || limits.strain.is_some();
     let bodies = view.model.elastic().filter(|b| !judged(b));
     let strained = bodies.filter_map(|body| {
         let strain = turning::strain_level(&body.elastic, &view.frame.state);

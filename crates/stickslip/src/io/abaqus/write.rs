@@ -34,7 +34,7 @@ pub fn write(path: &Path, mesh: &Mesh, plane: Space) -> Result<Vec<String>, Erro
 /// `*SURFACE` for facet sets, which make a `*NSET` as well. Cells of a plane mesh are of the type of the space `plane`, which does not matter in 3D.
 ///
 /// # Errors
-/// A mesh whose structure is wrong (see [`Mesh::check_structure`]).
+/// A mesh whose structure is wrong (see [`check_structure`](crate::mesh::check::check_structure)).
 pub fn text(mesh: &Mesh, plane: Space) -> Result<(String, Vec<String>), MeshError> {
     check::check_structure(mesh)?;
     let numbers = Numbers::of(mesh);

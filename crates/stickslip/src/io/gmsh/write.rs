@@ -36,7 +36,7 @@ pub fn write(path: &Path, mesh: &Mesh) -> Result<Vec<String>, Error> {
 /// point set that has the name and the points of a facet or cell set is not written, as readers derive it.
 ///
 /// # Errors
-/// A mesh whose structure is wrong (see [`Mesh::check_structure`]).
+/// A mesh whose structure is wrong (see [`check_structure`](crate::mesh::check::check_structure)).
 pub fn text(mesh: &Mesh) -> Result<(String, Vec<String>), MeshError> {
     check::check_structure(mesh)?;
     let numbers = Numbers::of(mesh);

@@ -135,7 +135,7 @@ const RESERVED: [&str; 2] = ["NODE_ID", "ELEMENT_ID"];
 /// the mesh. A point set that has the name and the points of a facet or cell set is left out, as readers derive it.
 ///
 /// # Errors
-/// [`Error::Mesh`] if the structure of the mesh is wrong (see [`Mesh::check_structure`]), [`Error::Io`] if the file cannot be
+/// [`Error::Mesh`] if the structure of the mesh is wrong (see [`check_structure`](crate::mesh::check::check_structure)), [`Error::Io`] if the file cannot be
 /// written.
 pub fn write_mesh(path: &Path, mesh: &Mesh) -> Result<Vec<String>, Error> {
     check::check_structure(mesh)?;
