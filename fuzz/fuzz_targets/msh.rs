@@ -5,6 +5,7 @@ use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
 use stickslip::io::gmsh;
+use stickslip::mesh::check;
 
 fuzz_target!(|bytes: &[u8]| {
     let path = Path::new("fuzz.msh");
