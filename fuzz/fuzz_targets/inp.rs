@@ -22,7 +22,7 @@ fuzz_target!(|bytes: &[u8]| {
             let _ = error.to_string();
         }
         Ok(translation) => {
-            translation.mesh.check_structure().expect("a mesh with a sound structure");
+            stickslip::mesh::check::check_structure(&translation.mesh).expect("a mesh with a sound structure");
             if let Err(error) = translation.document(Vec::new()).problem() {
                 // Whatever is wrong is wrong with the deck, not with the file made of it.
                 assert!(error.findings.iter().all(|f| !f.key.is_empty()), "{error}\n{}", translation.toml);

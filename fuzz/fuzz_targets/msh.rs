@@ -12,9 +12,9 @@ fuzz_target!(|bytes: &[u8]| {
     match gmsh::parse(bytes, path) {
         Err(error) => assert!(!error.message.is_empty() && error.file.is_some()),
         Ok(mesh) => {
-            check::check_structure(mesh)
+            check::check_structure(&mesh)
                 .expect("what is read has a sound structure");
-            let _ = check::check(mesh);
+            let _ = check::check(&mesh);
             let (text, notes) = gmsh::text(&mesh).expect("and can be written");
             if notes.is_empty() {
                 let again = gmsh::parse(text.as_bytes(), path).expect("and read back");

@@ -13,9 +13,9 @@ fuzz_target!(|bytes: &[u8]| {
     match vtu::parse_mesh(bytes, path) {
         Err(error) => assert!(!error.message.is_empty() && error.help.is_some()),
         Ok(mesh) => {
-            check::check_structure(mesh)
+            check::check_structure(&mesh)
                 .expect("what is read has a sound structure");
-            let _ = check::check(mesh);
+            let _ = check::check(&mesh);
             stickslip::io::gmsh::text(&mesh).expect("and can be written");
         }
     }
