@@ -5,8 +5,8 @@ use stickslip::model::Step;
 /// Increments after which there is something to go by.
 const FEW_INCREMENTS: usize = 4;
 
-/// Factor by which what would have been told earlier of what is done since may be wrong. Tuned: on six examples every estimate that is told
-/// was within 1.7 of what came, where without this check some were off by a factor of seven.
+/// Factor by which an estimate made earlier may differ from the time that passed since. Tuned: on six examples every estimate that is printed
+/// was within a factor of 1.7, and without this check some were off by a factor of seven.
 const LARGEST_ERROR: f64 = 1.6;
 
 /// How many earlier moments are asked.

@@ -68,7 +68,7 @@ pub(crate) fn judge_bodies(view: &View, limits: &Limits, gate: &mut Gate) {
             all.map(move |c| view.model.dofs.of(p, c))
         });
         let stop: f64 = dofs.filter_map(|dof| stopping.get(dof)).sum();
-        // Less than this part of the forces that would stop the motion is no force to speak of.
+        // Forces below this part of those that would stop the motion are negligible.
         let scale = a.scale.max(NEGLIGIBLE * stop);
         let (pair, limit, t) = ([left, scale], limits.equilibrium, view.frame.state.t);
         match view.inertia().is_some() {

@@ -167,7 +167,7 @@ pub(crate) fn judge_energy(
     let t = view.frame.state.t;
     let (open, scale) = (pair[0], pair[1].max(f64::MIN_POSITIVE));
     let unknown = ledger.uncertain;
-    // A note says so if a quasi-static ledger leaves more of the energy in play open.
+    // A quasi-static energy balance that is off by more than a thousandth of the energy in play is worth a note.
     if !moves && open > 1e-3 * scale {
         notes.push(format!(
             "the ledger of energies is open by {:.1} % of the energy in play: works and losses are known to no more than that. Smaller increments make what comes of the course within them less; what they leave says that forces act along other directions than gaps have, as at edges that press or with small rotations",

@@ -313,7 +313,7 @@ fn the_tangent_is_that_of_the_force() {
     }
 }
 
-/// Points in the hollow parts of a surface are as near to one facet as to the next: which of them they meet is a matter of geometry.
+/// Points opposite the concave parts of a surface are as near to one facet as to the next: which of them they meet is a matter of geometry.
 #[test]
 fn numbers_of_facets_make_no_difference() {
     for kind in [ElementKind::Tri3, ElementKind::Quad4] {

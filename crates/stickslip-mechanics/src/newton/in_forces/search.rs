@@ -31,7 +31,7 @@ pub(super) fn search(
     loop {
         let problem = columns.problem(chosen, &forces, &du);
         let error = map::friction_error(&problem, &forces);
-        // Such a part of the error of the forces before is good enough for a pass: the next one begins where this one ends.
+        // A thousandth of the first error is good enough for a pass: the next pass begins where this one ends.
         let enough = 1e-3 * *first.get_or_insert(error);
         let done = before.is_finite() && error <= enough.max(FRICTION_ERROR);
         // A solution with kept columns may leave half of the error; otherwise they are made anew.

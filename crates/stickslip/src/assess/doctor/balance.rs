@@ -128,7 +128,7 @@ fn judge(
             )
         });
     }
-    // Contact normals with a narrower cosine between them make no flat surface.
+    // The surface is flat if no contact normal differs from their mean by more than acos(0.999), 2.6 degrees.
     if narrowest < 0.999 {
         return None;
     }

@@ -79,7 +79,7 @@ fn flatness(kind: ElementKind, x: &[Vec3]) -> f64 {
     if dim == 2 {
         jacobian[2][2] = 1.0;
     }
-    // A cell with more of the volume of the cube of its longest edge cannot be a sliver, whatever its shape.
+    // A cell that fills more than a thousandth of the cube of its longest edge cannot be a sliver, whatever its shape.
     if determinant(&jacobian).abs() > 1e-3 * edges[1].powi(dim as i32) {
         return shortest;
     }

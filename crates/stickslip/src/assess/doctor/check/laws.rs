@@ -67,7 +67,7 @@ fn stiffness(interface: &InterfaceDefinition, largest: f64) -> Option<Finding> {
     }
     let ratio = stiffness / beneath;
     // An infinite ratio included, not a NaN.
-    // A law that is stiffer at that pressure, relative to the cells beneath, is far too stiff: what is left of a double's digits.
+    // A law with 1e10 times the stiffness of the cells beneath is far too stiff: of the sixteen digits of a double six are left for the forces.
     (ratio > 1e10).then(|| {
         new(
             format!(

@@ -155,8 +155,8 @@ fn thickness(model: &Model, all: &[Numbers]) -> Option<Finding> {
     };
     let largest = all.iter().map(|n| n.size).reduce(f64::max)?;
     let ratio = thickness / largest;
-    // A thickness beyond this, over the size of the largest body, is hardly in the same unit, both ways; one of exactly 1 is the unit of
-    // length.
+    // A thickness outside this range, relative to the size of the largest body, is hardly in the same unit. A thickness of exactly 1 is the unit
+    // of length.
     let far = !(2e-4..=50.0).contains(&ratio) && thickness != 1.0;
     far.then(|| {
         finding(format!(
@@ -235,7 +235,7 @@ fn alone(model: &Model, n: &Numbers, heavy: bool) -> Option<Finding> {
         ));
     }
     let metal = within(1e6 * n.modulus, [1e10, MODULI[1]]);
-    // A body with a modulus in megapascals of less than 0.1 mm is hardly given in millimetres.
+    // A metal body smaller than 0.1, with its modulus in megapascals, is hardly meshed in millimetres.
     if metal && n.size < 0.1 {
         return Some(blame(
             finding(format!(
