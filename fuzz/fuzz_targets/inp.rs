@@ -4,7 +4,6 @@
 use std::path::Path;
 
 use libfuzzer_sys::fuzz_target;
-use stickslip_deck::Deck;
 
 fuzz_target!(|bytes: &[u8]| {
     // Included files would be those of this machine.
@@ -14,7 +13,7 @@ fuzz_target!(|bytes: &[u8]| {
         return;
     }
     let path = Path::new("fuzz.inp");
-    let outcome = Deck::parse(bytes, path).and_then(|deck| deck.translate(path));
+    let outcome = stickslip_deck::parse(bytes, path).and_then(|deck| stickslip_deck::translate(&deck, path));
     match outcome {
         Err(error) => {
             assert!(!error.findings.is_empty());

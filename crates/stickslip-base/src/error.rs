@@ -140,6 +140,16 @@ impl From<MeshError> for Error {
     }
 }
 
+impl From<Vec<Diagnostic>> for ProblemError {
+    fn from(findings: Vec<Diagnostic>) -> Self {
+        ProblemError {
+            file: None,
+            source: String::new(),
+            findings,
+        }
+    }
+}
+
 impl From<ProblemError> for Error {
     fn from(e: ProblemError) -> Self {
         Error::Problem(e)

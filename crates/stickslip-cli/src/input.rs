@@ -8,7 +8,7 @@ use stickslip::Error;
 use stickslip::io::gmsh;
 use stickslip::model::Setup;
 use stickslip::problem::{Document, MeshSource, Meshes, Problem};
-use stickslip_deck::{Deck, Severity, Translation};
+use stickslip_deck::{Severity, Translation};
 
 use crate::failure::{Failure, located};
 use crate::given::{self, is_deck};
@@ -28,7 +28,7 @@ pub struct Input {
 
 /// Reads and translates a deck.
 pub fn translate(file: &Path) -> Result<Translation, Failure> {
-    let translate = || Deck::read(file)?.translate(file);
+    let translate = || stickslip_deck::translate(&stickslip_deck::read(file)?, file);
     translate().map_err(Failure::Deck)
 }
 

@@ -3,10 +3,10 @@
 //! The road is `files → cards → Deck → Translation`:
 //!
 //! - [`source`] joins the included files and cuts them into cards: a keyword with parameters and its data lines.
-//! - [`Deck::read`] gives every card its meaning. One table says of every keyword and parameter whether it is read, refused at its line, or left out
+//! - [`read`](read()) gives every card its meaning. One table says of every keyword and parameter whether it is read, refused at its line, or left out
 //!   with a note, as it cannot change the answer; what is in no row is an error. All errors are reported at once. Parts and instances become one flat
 //!   deck; [`Numbering`] tells whose a number is.
-//! - [`translate`](Deck::translate) makes a problem and its mesh of it: connected cells become bodies, cards become tables.
+//! - [`translate`](translate()) makes a problem and its mesh of it: connected cells become bodies, cards become tables.
 //! - [`Translation::frd`] says what `*NODE FILE`, `*EL FILE` and `*CONTACT FILE` ask for in the `.frd` file, which the library writes.
 //! - [`Printer`] writes what `*NODE PRINT`, `*EL PRINT`, `*SECTION PRINT` and `*CONTACT PRINT` ask for in CalculiX's layout, [`Status`] a `.sta` file with
 //!   Abaqus's columns.
@@ -51,6 +51,7 @@ mod translate;
 pub use deck::*;
 pub use finding::{DeckError, Finding, Severity};
 pub use numbering::Numbering;
+pub use parse::{from_source, parse, read};
 pub use print::Printer;
 pub use status::Status;
-pub use translate::{PrintPlan, Translation, read_mesh};
+pub use translate::{PrintPlan, Translation, read_mesh, translate};

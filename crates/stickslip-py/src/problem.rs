@@ -15,7 +15,7 @@ use stickslip::newton::condensed::Library;
 use stickslip::problem::{Document, Meshes, changes};
 use stickslip::results::{FolderClaim, Lent, Saved, Source, digest_of_state, seal, unseal};
 use stickslip::run::Checkpoint;
-use stickslip_deck::{Deck, Translation};
+use stickslip_deck::Translation;
 
 use super::errors::{raise, raise_deck};
 use super::laws::{Function, Raised};
@@ -153,7 +153,7 @@ impl Problem {
     /// From an input deck of Abaqus or CalculiX.
     #[staticmethod]
     fn from_inp(py: Python<'_>, file: PathBuf) -> PyResult<Self> {
-        let translate = || Deck::read(&file)?.translate(&file);
+        let translate = || stickslip_deck::translate(&stickslip_deck::read(&file)?, &file);
         let deck = py.detach(translate).map_err(|e| raise_deck(py, &e))?;
         let document = deck.document(Vec::new());
         Problem::translated(py, document, deck.meshes(), Some(Arc::new(deck)))

@@ -44,39 +44,37 @@ use crate::finding::DeckError;
 use crate::motion::Motion;
 use crate::source::Source;
 
-impl Deck {
-    /// Reads a deck and all it includes.
-    ///
-    /// # Errors
-    /// Everything that is wrong or not supported, each with file and line.
-    pub fn read(path: &Path) -> Result<Deck, DeckError> {
-        Deck::from_source(&Source::read(path, parameters)?)
-    }
+/// Reads a deck and all it includes.
+///
+/// # Errors
+/// Everything that is wrong or not supported, each with file and line.
+pub fn read(path: &Path) -> Result<Deck, DeckError> {
+    from_source(&Source::read(path, parameters)?)
+}
 
-    /// The same from the bytes of the first file; `path` is for messages, and for the folder of included files.
-    ///
-    /// # Errors
-    /// Those of [`Deck::read`].
-    pub fn parse(bytes: &[u8], path: &Path) -> Result<Deck, DeckError> {
-        Deck::from_source(&Source::parse(bytes, path, parameters)?)
-    }
+/// The same from the bytes of the first file; `path` is for messages, and for the folder of included files.
+///
+/// # Errors
+/// Those of [`read`].
+pub fn parse(bytes: &[u8], path: &Path) -> Result<Deck, DeckError> {
+    from_source(&Source::parse(bytes, path, parameters)?)
+}
 
-    /// The meaning of cards.
-    ///
-    /// # Errors
-    /// Those of [`Deck::read`].
-    pub fn from_source(source: &Source) -> Result<Deck, DeckError> {
-        let mut reader = Reader::new(source);
-        reader.scope.numbering = instances::numbering(source);
-        for (place, message) in &source.forgiven {
-            reader.messages.note(*place, message.clone());
-        }
-        for (at, card) in source.cards.iter().enumerate() {
-            reader.structure.at = at;
-            read_card(&mut reader, card);
-        }
-        finish(reader)
+/// The meaning of cards.
+///
+/// # Errors
+/// Those of [`read`].
+pub fn from_source(source: &Source) -> Result<Deck, DeckError> {
+    let mut reader = Reader::new(source);
+    reader.scope.numbering = instances::numbering(source);
+    for (place, message) in &source.forgiven {
+        reader.messages.note(*place, message.clone());
     }
+    for (at, card) in source.cards.iter().enumerate() {
+        reader.structure.at = at;
+        read_card(&mut reader, card);
+    }
+    finish(reader)
 }
 
 /// The names of the parameters of a keyword.

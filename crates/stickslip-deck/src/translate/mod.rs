@@ -39,94 +39,93 @@ use crate::axes;
 use crate::card::Place;
 use crate::deck::{Deck, Print, SurfaceParts};
 use crate::finding::DeckError;
+use crate::parse;
 use bodies::Bodies;
 use job::Job;
 use names::problem_name;
 use sets::Sets;
 
-impl Deck {
-    /// The problem that the deck describes. `path` is the deck: its name gives that of the mesh.
-    ///
-    /// # Errors
-    /// What has no counterpart here, with its line.
-    pub fn translate(&self, path: &Path) -> Result<Translation, DeckError> {
-        let mut job = Job::new(self);
-        let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned());
-        let mesh_name = PathBuf::from(format!("{}.msh", stem.as_deref().unwrap_or("job")));
-        let Some(mut bodies) = bodies::find(&mut job) else {
-            return Err(job.failed());
-        };
-        (bodies.materials, bodies.material) = materials::assign(&mut job, &bodies.section);
-        references::find(&mut job, &mut bodies);
-        let bodies = bodies;
-        let mut sets = Sets::new(self, &bodies);
-        let title = self.output.title.as_deref().map(str::trim);
-        job.problem.title = title.filter(|t| !t.is_empty()).map(str::to_string);
-        body_tables::write(&mut job, &bodies, &mut sets, &mesh_name);
-        materials::write(&mut job, &bodies);
-        references::write(&mut job, &bodies, &mut sets);
-        contact::write(&mut job, &bodies, &mut sets);
-        sliding::write(&mut job, &bodies);
-        supports::write(&mut job, &bodies, &mut sets);
-        loads::write(&mut job, &bodies, &mut sets);
-        harmonic::write(&mut job, &bodies);
-        temperatures::write(&mut job, &bodies, &mut sets);
-        links::write(&mut job, &bodies, &mut sets);
-        let drawn = pretensions::write(&mut job, &bodies, &mut sets);
-        multi_point::write(&mut job, &bodies, &mut sets);
-        quality(&mut job);
-        steps::write(&mut job);
-        unprinted(&mut job, &bodies);
-        modal_output(&mut job);
-        job.problem.set = sets.unions();
-        if !job.errors.is_empty() {
+/// The problem that the deck describes. `path` is the deck: its name gives that of the mesh.
+///
+/// # Errors
+/// What has no counterpart here, with its line.
+pub fn translate(deck: &Deck, path: &Path) -> Result<Translation, DeckError> {
+    let mut job = Job::new(deck);
+    let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned());
+    let mesh_name = PathBuf::from(format!("{}.msh", stem.as_deref().unwrap_or("job")));
+    let Some(mut bodies) = bodies::find(&mut job) else {
+        return Err(job.failed());
+    };
+    (bodies.materials, bodies.material) = materials::assign(&mut job, &bodies.section);
+    references::find(&mut job, &mut bodies);
+    let bodies = bodies;
+    let mut sets = Sets::new(deck, &bodies);
+    let title = deck.output.title.as_deref().map(str::trim);
+    job.problem.title = title.filter(|t| !t.is_empty()).map(str::to_string);
+    body_tables::write(&mut job, &bodies, &mut sets, &mesh_name);
+    materials::write(&mut job, &bodies);
+    references::write(&mut job, &bodies, &mut sets);
+    contact::write(&mut job, &bodies, &mut sets);
+    sliding::write(&mut job, &bodies);
+    supports::write(&mut job, &bodies, &mut sets);
+    loads::write(&mut job, &bodies, &mut sets);
+    harmonic::write(&mut job, &bodies);
+    temperatures::write(&mut job, &bodies, &mut sets);
+    links::write(&mut job, &bodies, &mut sets);
+    let drawn = pretensions::write(&mut job, &bodies, &mut sets);
+    multi_point::write(&mut job, &bodies, &mut sets);
+    quality(&mut job);
+    steps::write(&mut job);
+    unprinted(&mut job, &bodies);
+    modal_output(&mut job);
+    job.problem.set = sets.unions();
+    if !job.errors.is_empty() {
+        return Err(job.failed());
+    }
+    let toml = match brief_toml(&job.problem) {
+        Ok(text) => text,
+        Err(e) => {
+            let findings = e.findings.iter();
+            findings.for_each(|f| job.error(Place::default(), f.message.clone(), ""));
             return Err(job.failed());
         }
-        let toml = match brief_toml(&job.problem) {
-            Ok(text) => text,
-            Err(e) => {
-                let findings = e.findings.iter();
-                findings.for_each(|f| job.error(Place::default(), f.message.clone(), ""));
-                return Err(job.failed());
-            }
-        };
-        let mesh = Arc::new(sets.into_mesh(&bodies));
-        let mut notes = self.notes.clone();
-        notes.append(&mut job.notes);
-        let node_axes = self.properties.transforms.iter().filter_map(|(n, t)| {
-            let x = *self.nodes.get(n)?;
-            Some((*n, axes::at_node(t, x)?))
-        });
-        let element_axes = bodies.section.iter().filter_map(|(e, s)| {
-            let axes = materials::axes_of(self, *e, &self.properties.sections[*s])?;
-            Some((*e, axes))
-        });
-        Ok(Translation {
-            plan: PrintPlan {
-                times: times(&job),
-                node_axes: node_axes.collect(),
-                element_axes: element_axes.collect(),
-                prints: self.steps.iter().map(|s| s.prints.clone()).collect(),
-                node_sets: printed(self, &self.node_sets),
-                element_sets: printed(self, &self.element_sets),
-                surfaces: carried(self, &bodies),
-                pairs: job.pairs,
-                drawn,
-                references: references::printed(self, &bodies),
-                numbering: self.numbering.clone(),
-            },
-            elements: self.elements.iter().map(|(n, e)| (*n, e.place)).collect(),
-            lint: lint::findings(self, &bodies),
-            toml,
-            mesh_name,
-            mesh,
-            notes,
-            filed: self.steps.iter().map(|s| s.filed.clone()).collect(),
-            path: path.to_path_buf(),
-            places: job.places,
-            files: self.output.files.clone(),
-        })
-    }
+    };
+    let mesh = Arc::new(sets.into_mesh(&bodies));
+    let mut notes = deck.notes.clone();
+    notes.append(&mut job.notes);
+    let node_axes = deck.properties.transforms.iter().filter_map(|(n, t)| {
+        let x = *deck.nodes.get(n)?;
+        Some((*n, axes::at_node(t, x)?))
+    });
+    let element_axes = bodies.section.iter().filter_map(|(e, s)| {
+        let axes = materials::axes_of(deck, *e, &deck.properties.sections[*s])?;
+        Some((*e, axes))
+    });
+    Ok(Translation {
+        plan: PrintPlan {
+            times: times(&job),
+            node_axes: node_axes.collect(),
+            element_axes: element_axes.collect(),
+            prints: deck.steps.iter().map(|s| s.prints.clone()).collect(),
+            node_sets: printed(deck, &deck.node_sets),
+            element_sets: printed(deck, &deck.element_sets),
+            surfaces: carried(deck, &bodies),
+            pairs: job.pairs,
+            drawn,
+            references: references::printed(deck, &bodies),
+            numbering: deck.numbering.clone(),
+        },
+        elements: deck.elements.iter().map(|(n, e)| (*n, e.place)).collect(),
+        lint: lint::findings(deck, &bodies),
+        toml,
+        mesh_name,
+        mesh,
+        notes,
+        filed: deck.steps.iter().map(|s| s.filed.clone()).collect(),
+        path: path.to_path_buf(),
+        places: job.places,
+        files: deck.output.files.clone(),
+    })
 }
 
 /// Limits of the gate that do not hold where the deck gives springs of its own, and those that the deck asks for.
@@ -254,7 +253,7 @@ fn times(job: &Job) -> BTreeMap<String, Vec<f64>> {
 /// # Errors
 /// What is wrong with its nodes, elements, sets and surfaces.
 pub fn read_mesh(path: &Path) -> Result<Mesh, DeckError> {
-    let deck = Deck::read(path)?;
+    let deck = parse::read(path)?;
     let mut job = Job::new(&deck);
     let Some(bodies) = bodies::connected(&mut job) else {
         return Err(job.failed());

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use stickslip::problem::Problem;
 
+use super::translate;
 use crate::card::Place;
 use crate::deck::{
     Action, Boundary, Deck, Elastic, Element, Material, Procedure, Section, Step, Target,
@@ -79,9 +80,7 @@ fn step(procedure: Procedure, actions: Vec<Action>) -> Step {
 }
 
 fn problem(deck: &Deck) -> Problem {
-    let translation = deck
-        .translate(Path::new("cube.inp"))
-        .unwrap_or_else(|e| panic!("{e:?}"));
+    let translation = translate(deck, Path::new("cube.inp")).unwrap_or_else(|e| panic!("{e:?}"));
     assert_eq!(translation.mesh_name, Path::new("cube.msh"));
     Problem::from_toml(&translation.toml, None).unwrap_or_else(|e| panic!("{e}"))
 }
@@ -144,7 +143,7 @@ fn what_changes_from_step_to_step_is_listed() {
 
 #[test]
 fn a_deck_without_steps_is_refused() {
-    let Err(refused) = cube().translate(Path::new("cube.inp")) else {
+    let Err(refused) = translate(&cube(), Path::new("cube.inp")) else {
         panic!("there are no steps");
     };
     let refused = format!("{refused:?}");

@@ -3,8 +3,6 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use stickslip_deck::Deck;
-
 /// The same numbers each time.
 struct Dice(u64);
 
@@ -59,7 +57,8 @@ fn damaged(text: &str, dice: &mut Dice) -> String {
 
 fn read(bytes: &[u8]) {
     let path = Path::new("a.inp");
-    let translated = Deck::parse(bytes, path).and_then(|deck| deck.translate(path));
+    let translated =
+        stickslip_deck::parse(bytes, path).and_then(|deck| stickslip_deck::translate(&deck, path));
     let Ok(translation) = translated else {
         return;
     };

@@ -6,7 +6,7 @@ use crate::support::{near, near3, refused, run};
 use stickslip_deck::Deck;
 
 fn read(text: &str) -> Deck {
-    Deck::parse(text.as_bytes(), Path::new("job.inp")).unwrap_or_else(|e| panic!("{e}"))
+    stickslip_deck::parse(text.as_bytes(), Path::new("job.inp")).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// A bar of 4 by 2 by 1 in cells with edges of one, generated from eight nodes and one element, held at x = 0 and drawn by 30 at x = 4.

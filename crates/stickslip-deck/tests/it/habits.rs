@@ -6,7 +6,7 @@ use crate::support::{cube, near, pair, refused, run, sections};
 use stickslip_deck::{Deck, SurfaceParts};
 
 fn read(text: &str) -> Deck {
-    Deck::parse(text.as_bytes(), Path::new("job.inp")).unwrap_or_else(|e| panic!("{e}"))
+    stickslip_deck::parse(text.as_bytes(), Path::new("job.inp")).unwrap_or_else(|e| panic!("{e}"))
 }
 
 fn pressed(gap: f64, kind: &str, step: &str) -> String {

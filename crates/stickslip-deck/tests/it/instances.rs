@@ -259,7 +259,7 @@ fn equations_springs_and_masses_name_nodes_of_instances() {
 }
 
 fn deck(text: &str) -> Deck {
-    Deck::parse(text.as_bytes(), Path::new("job.inp")).unwrap_or_else(|e| panic!("{e}"))
+    stickslip_deck::parse(text.as_bytes(), Path::new("job.inp")).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// A tetrahedron in a part with its instance lines.

@@ -5,13 +5,14 @@
 
 use std::path::{Path, PathBuf};
 
-use stickslip_deck::{Deck, Translation};
+use stickslip_deck::Translation;
 
 fn message(path: &Path) -> String {
-    let translation: Translation = match Deck::read(path).and_then(|d| d.translate(path)) {
-        Ok(t) => t,
-        Err(e) => return format!("{e}\n"),
-    };
+    let translation: Translation =
+        match stickslip_deck::read(path).and_then(|d| stickslip_deck::translate(&d, path)) {
+            Ok(t) => t,
+            Err(e) => return format!("{e}\n"),
+        };
     let built = translation
         .document(Vec::new())
         .problem()

@@ -7,7 +7,7 @@ use stickslip_deck::{Action, Deck, Elastic, Print, Severity};
 use crate::support::{place, refused};
 
 fn read(text: &str) -> Deck {
-    Deck::parse(text.as_bytes(), Path::new("job.inp")).unwrap_or_else(|e| panic!("{e}"))
+    stickslip_deck::parse(text.as_bytes(), Path::new("job.inp")).unwrap_or_else(|e| panic!("{e}"))
 }
 
 const TET: &str = "*NODE, NSET=N\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 0., 1., 0.\n4, 0., 0., 1.\n*ELEMENT, TYPE=C3D4, ELSET=E\n1, 1, 2, 3, 4\n";
@@ -221,12 +221,12 @@ fn included_files_stand_in_the_middle_of_data() {
         "job.inp",
         "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n*INCLUDE, INPUT=\"nodes.inp\",\n*ELEMENT, TYPE=C3D4, ELSET=E\n1, 1, 2, 3, 4\n",
     );
-    let deck = Deck::read(&folder.join("job.inp")).unwrap_or_else(|e| panic!("{e}"));
+    let deck = stickslip_deck::read(&folder.join("job.inp")).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!((deck.nodes.len(), deck.output.files.len()), (4, 4));
     assert_eq!(deck.node_sets["A"], [1]);
     // A mistake is found in the file it is in.
     write("set.inp", "*NSET, NSET=A\n1, 9\n");
-    let message = Deck::read(&folder.join("job.inp"))
+    let message = stickslip_deck::read(&folder.join("job.inp"))
         .expect_err("no node 9")
         .to_string();
     assert!(

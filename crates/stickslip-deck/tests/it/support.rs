@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use stickslip::results::Observer;
 use stickslip::run::Simulation;
-use stickslip_deck::{Deck, Printer, Status, Translation};
+use stickslip_deck::{Printer, Status, Translation};
 
 /// A file of one test.
 pub fn place(name: &str) -> PathBuf {
@@ -15,14 +15,15 @@ pub fn place(name: &str) -> PathBuf {
 /// A deck that must be read and translated.
 pub fn translate(text: &str) -> Translation {
     let path = Path::new("job.inp");
-    let deck = Deck::parse(text.as_bytes(), path).unwrap_or_else(|e| panic!("{e}"));
-    deck.translate(path).unwrap_or_else(|e| panic!("{e}"))
+    let deck = stickslip_deck::parse(text.as_bytes(), path).unwrap_or_else(|e| panic!("{e}"));
+    stickslip_deck::translate(&deck, path).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// What is said about a deck that must be refused.
 pub fn refused(text: &str) -> String {
     let path = Path::new("job.inp");
-    let outcome = Deck::parse(text.as_bytes(), path).and_then(|d| d.translate(path));
+    let outcome = stickslip_deck::parse(text.as_bytes(), path)
+        .and_then(|d| stickslip_deck::translate(&d, path));
     match outcome {
         Ok(t) => panic!("the deck is read:\n{}", t.toml),
         Err(e) => e.to_string(),

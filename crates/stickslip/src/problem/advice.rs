@@ -7,7 +7,7 @@ use serde_json::Value as Json;
 use toml::Spanned;
 use toml::de::DeValue;
 
-use super::expected::{Expected, accepts, strings};
+use super::expected::{Expected, accepts};
 use super::key;
 use super::nearest::{nearest, suggest, synonym};
 use super::tree::{Value, number};
@@ -202,36 +202,6 @@ impl Here {
             false => format!("{{ {} }}", join(keys, value)),
         };
         join(&self.keys, &format!("[{entry}]"))
-    }
-}
-
-impl<'s> Expected<'s> {
-    fn takes_table(&self) -> bool {
-        self.allows("object")
-    }
-
-    fn is_list(&self) -> bool {
-        self.allows("array")
-    }
-
-    /// The schema of entries with names of the user's own.
-    fn entry(&self) -> Option<&'s Json> {
-        let rest = self.own.get("additionalProperties");
-        rest.filter(|schema| schema.is_object())
-    }
-
-    fn required(&self) -> Vec<&'s str> {
-        strings(self.own.get("required")).collect()
-    }
-
-    /// Keys with their schemas, kinds first.
-    fn keys(&self) -> impl Iterator<Item = (&'s str, &'s Json)> {
-        self.kinds.iter().chain(&self.properties).copied()
-    }
-
-    fn child(&self, key: &str) -> Option<&'s Json> {
-        let named = self.keys().find(|(name, _)| *name == key);
-        named.map(|(_, schema)| schema).or_else(|| self.entry())
     }
 }
 

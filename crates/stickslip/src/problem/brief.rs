@@ -29,7 +29,7 @@ enum Among<'a> {
 /// # Errors
 /// As [`Problem::to_toml`].
 pub fn brief_toml(problem: &Problem) -> Result<String, ProblemError> {
-    let text = problem.to_toml()?;
+    let text = super::data::to_toml(problem)?;
     let root = Table::parse_recoverable(&text).0.into_inner();
     let mut out = String::new();
     for (kind, value) in tree::in_order(&root) {

@@ -102,47 +102,16 @@ pub struct Problem {
     pub probe: BTreeMap<String, Probe>,
 }
 
-impl Problem {
-    /// A problem without bodies and steps.
-    pub fn new(model: Model) -> Self {
-        Problem {
-            format: FORMAT,
-            title: None,
-            model,
-            body: BTreeMap::new(),
-            material: BTreeMap::new(),
-            obstacle: BTreeMap::new(),
-            set: BTreeMap::new(),
-            reference: BTreeMap::new(),
-            interface: BTreeMap::new(),
-            support: BTreeMap::new(),
-            load: BTreeMap::new(),
-            temperature: BTreeMap::new(),
-            mass: BTreeMap::new(),
-            coupling: BTreeMap::new(),
-            pretension: BTreeMap::new(),
-            amplitude: BTreeMap::new(),
-            initial: BTreeMap::new(),
-            step: Vec::new(),
-            solver: Solver::default(),
-            quality: Quality::default(),
-            output: Output::default(),
-            probe: BTreeMap::new(),
-        }
-    }
-
-    /// As the text of a problem file, which gives the same problem again.
-    ///
-    /// # Errors
-    /// If a value cannot be written as TOML: a whole number above `i64::MAX`.
-    pub fn to_toml(&self) -> Result<String, ProblemError> {
-        toml::to_string(self).map_err(|e| ProblemError {
-            file: None,
-            source: String::new(),
-            findings: vec![Diagnostic::new(
-                "",
-                format!("cannot be written as TOML: {e}"),
-            )],
-        })
-    }
+/// As the text of a problem file, which gives the same problem again.
+///
+/// # Errors
+/// If a value cannot be written as TOML: a whole number above `i64::MAX`.
+pub(super) fn to_toml(problem: &Problem) -> Result<String, ProblemError> {
+    toml::to_string(problem).map_err(|e| {
+        vec![Diagnostic::new(
+            "",
+            format!("cannot be written as TOML: {e}"),
+        )]
+        .into()
+    })
 }

@@ -101,6 +101,34 @@ impl<'s> Expected<'s> {
             .collect();
         names.join(" or ")
     }
+
+    pub(super) fn takes_table(&self) -> bool {
+        self.allows("object")
+    }
+
+    pub(super) fn is_list(&self) -> bool {
+        self.allows("array")
+    }
+
+    /// The schema of entries with names of the user's own.
+    pub(super) fn entry(&self) -> Option<&'s Json> {
+        let rest = self.own.get("additionalProperties");
+        rest.filter(|schema| schema.is_object())
+    }
+
+    pub(super) fn required(&self) -> Vec<&'s str> {
+        strings(self.own.get("required")).collect()
+    }
+
+    /// Keys with their schemas, kinds first.
+    pub(super) fn keys(&self) -> impl Iterator<Item = (&'s str, &'s Json)> {
+        self.kinds.iter().chain(&self.properties).copied()
+    }
+
+    pub(super) fn child(&self, key: &str) -> Option<&'s Json> {
+        let named = self.keys().find(|(name, _)| *name == key);
+        named.map(|(_, schema)| schema).or_else(|| self.entry())
+    }
 }
 
 /// Of several alternatives the one for a value of this type; the schema itself where there is no choice, or none is.

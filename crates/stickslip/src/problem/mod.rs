@@ -50,9 +50,11 @@ mod support;
 mod temperature;
 mod tree;
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::error::{Diagnostic, Error, ProblemError};
+use crate::model::Setup;
 
 pub use amplitude::AmplitudeTable;
 pub use body::{Body, BodyRotation, GmshFile, MeshSource, Rayleigh};
@@ -91,6 +93,42 @@ pub use support::{Component, Support};
 pub use temperature::Temperature;
 
 impl Problem {
+    /// A problem without bodies and steps.
+    pub fn new(model: Model) -> Self {
+        Problem {
+            format: FORMAT,
+            title: None,
+            model,
+            body: BTreeMap::new(),
+            material: BTreeMap::new(),
+            obstacle: BTreeMap::new(),
+            set: BTreeMap::new(),
+            reference: BTreeMap::new(),
+            interface: BTreeMap::new(),
+            support: BTreeMap::new(),
+            load: BTreeMap::new(),
+            temperature: BTreeMap::new(),
+            mass: BTreeMap::new(),
+            coupling: BTreeMap::new(),
+            pretension: BTreeMap::new(),
+            amplitude: BTreeMap::new(),
+            initial: BTreeMap::new(),
+            step: Vec::new(),
+            solver: Solver::default(),
+            quality: Quality::default(),
+            output: Output::default(),
+            probe: BTreeMap::new(),
+        }
+    }
+
+    /// As the text of a problem file, which gives the same problem again.
+    ///
+    /// # Errors
+    /// If a value cannot be written as TOML: a whole number above `i64::MAX`.
+    pub fn to_toml(&self) -> Result<String, ProblemError> {
+        data::to_toml(self)
+    }
+
     /// Reads and checks the text of a problem file; `file` is named in messages.
     ///
     /// # Errors
@@ -113,11 +151,32 @@ impl Problem {
     ///
     /// The findings carry keys but no places; [`Document::error`] adds them.
     pub fn check(&self) -> Vec<Diagnostic> {
-        let mut findings = match self.to_toml() {
+        let mut findings = match data::to_toml(self) {
             Ok(text) => Document::new(text, None).departures(),
             Err(e) => e.findings,
         };
         findings.extend(check::check(self));
         findings
+    }
+
+    /// Builds what can be simulated. Mesh files are looked for relative to `folder`.
+    ///
+    /// # Errors
+    /// [`Error::Problem`] with findings that carry keys but no places (see [`Document::error`]),
+    /// [`Error::Mesh`] for a mesh that cannot be used, [`Error::Io`] for a file that cannot be read.
+    pub fn build(&self, folder: &Path) -> Result<Setup, Error> {
+        self.build_with(folder, &Meshes::default())
+    }
+
+    /// The same with meshes from memory: the name of a mesh file that is among them is not looked for on disk.
+    ///
+    /// # Errors
+    /// Those of [`Problem::build`].
+    pub fn build_with(&self, folder: &Path, meshes: &Meshes) -> Result<Setup, Error> {
+        let findings = self.check();
+        match findings.is_empty() {
+            true => build::build(self, folder, meshes),
+            false => Err(ProblemError::from(findings).into()),
+        }
     }
 }

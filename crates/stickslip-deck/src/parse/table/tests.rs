@@ -6,7 +6,6 @@ use std::path::Path;
 use super::row::{Data, Fate, Row};
 use super::rows;
 use crate::card::asked;
-use crate::deck::Deck;
 use crate::finding::{Finding, Severity};
 
 /// What stands before the card that is looked at: all that it may refer to.
@@ -236,7 +235,7 @@ fn deck(row: &Row, more: &str, data: &str) -> String {
 
 /// What is said of a deck: errors, or the rest.
 fn said(text: &str) -> Vec<Finding> {
-    match Deck::parse(text.as_bytes(), Path::new("job.inp")) {
+    match crate::parse(text.as_bytes(), Path::new("job.inp")) {
         Ok(deck) => deck.notes,
         Err(e) => e.findings,
     }

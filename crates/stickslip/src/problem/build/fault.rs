@@ -4,9 +4,5 @@ use crate::error::{Diagnostic, Error, ProblemError};
 
 /// An error of these findings.
 pub(super) fn problem_error(findings: Vec<Diagnostic>) -> Error {
-    Error::Problem(ProblemError {
-        file: None,
-        source: String::new(),
-        findings,
-    })
+    ProblemError::from(findings).into()
 }

@@ -39,7 +39,7 @@ pub(super) fn laws(problem: &Problem) -> Result<BTreeMap<&str, Law>, Error> {
 }
 
 impl Law {
-    pub(in crate::problem) fn of(material: &Material) -> Result<Self, MaterialError> {
+    fn of(material: &Material) -> Result<Self, MaterialError> {
         let model = material.as_dyn();
         let stiffness = model.stiffness()?;
         let frame = model.frame()?;

@@ -94,348 +94,332 @@ struct Attached {
     corotations: Corotations,
 }
 
-impl Problem {
-    /// Builds what can be simulated. Mesh files are looked for relative to `folder`.
-    ///
-    /// # Errors
-    /// [`Error::Problem`] with findings that carry keys but no places (see [`Document::error`](super::Document::error)),
-    /// [`Error::Mesh`] for a mesh that cannot be used, [`Error::Io`] for a file that cannot be read.
-    pub fn build(&self, folder: &Path) -> Result<Setup, Error> {
-        self.build_with(folder, &Meshes::default())
+/// Builds a problem that was checked. `snap` and worn surfaces move points, and all that follows from coordinates is made anew.
+pub fn build(problem: &Problem, folder: &Path, meshes: &Meshes) -> Result<Setup, Error> {
+    let mut moves = snap::Moves::default();
+    let mut setup = build_moved(problem, folder, meshes, moves.clone())?;
+    for round in 0..worn::rounds(problem) {
+        worn::add_round(problem, folder, round, &setup, &mut moves)?;
+        setup = build_moved(problem, folder, meshes, moves.clone())?;
     }
-
-    /// The same with meshes from memory: the name of a mesh file that is among them is not looked for on disk.
-    ///
-    /// # Errors
-    /// Those of [`Problem::build`].
-    pub fn build_with(&self, folder: &Path, meshes: &Meshes) -> Result<Setup, Error> {
-        let findings = self.check();
-        if !findings.is_empty() {
-            return Err(problem_error(findings));
-        }
-        let mut moves = snap::Moves::default();
-        let mut setup = self.build_moved(folder, meshes, moves.clone())?;
-        for round in 0..worn::rounds(self) {
-            worn::add_round(self, folder, round, &setup, &mut moves)?;
-            // All that follows from coordinates is made anew.
-            setup = self.build_moved(folder, meshes, moves.clone())?;
-        }
-        let start = setup.model.steps.first().map_or(0.0, |s| s.start);
-        match snap::add(self, &setup.contact.interfaces, start, &mut moves) {
-            true => self.build_moved(folder, meshes, moves),
-            false => Ok(setup),
-        }
+    let start = setup.model.steps.first().map_or(0.0, |s| s.start);
+    match snap::add(problem, &setup.contact.interfaces, start, &mut moves) {
+        true => build_moved(problem, folder, meshes, moves),
+        false => Ok(setup),
     }
+}
 
-    /// What is said of an interface whose sides were exchanged.
-    fn exchange_note(&self, interface: &InterfaceDefinition) -> Option<String> {
-        let table = self.interface.get(&interface.name)?;
-        interface.exchanged.then(|| {
-            format!(
-                "interface {}: {} has the larger cells, so the points of {} are kept from entering it; forces and slip are reported as of the sides as they are named (`roles = \"as-named\"` keeps them)",
-                interface.name, table.secondary, table.primary
-            )
-        })
-    }
+/// What is said of an interface whose sides were exchanged.
+fn exchange_note(problem: &Problem, interface: &InterfaceDefinition) -> Option<String> {
+    let table = problem.interface.get(&interface.name)?;
+    interface.exchanged.then(|| {
+        format!(
+            "interface {}: {} has the larger cells, so the points of {} are kept from entering it; forces and slip are reported as of the sides as they are named (`roles = \"as-named\"` keeps them)",
+            interface.name, table.secondary, table.primary
+        )
+    })
+}
 
-    /// The bodies, with the links of the rigid ones.
-    fn bodies(
-        &self,
-        parts: Vec<meshes::BuiltBody>,
-        mesh: &Arc<Mesh>,
-        space: Space,
-    ) -> Result<BuiltBodies, Error> {
-        let mut bodies = Vec::new();
-        let mut links = Vec::new();
-        let mut materials = Vec::new();
-        let mut densities = vec![0.0; mesh.blocks.len()];
-        for part in parts {
-            let table = &self.body[&part.name];
-            for p in &part.parts {
-                densities[p.block] = p.density;
-            }
-            let elastic = Elastic::new(
-                &part.name,
-                Arc::clone(mesh),
-                space,
-                table.formulation,
-                part.parts,
-            )
-            .map_err(|e| problem_error(vec![e.under(&format!("body.{}", part.name))]))?;
-            let elastic = match table.rotation {
-                BodyRotation::Corotational => elastic.corotational(),
-                _ => elastic,
-            };
-            materials.push(part.materials);
-            let rigid = table.rigid.then(|| {
-                let hidden = mesh.points.len() + 2 * links.len();
-                let (link, rigid) = rigid::link(
-                    &elastic,
-                    part.points.clone(),
-                    hidden,
-                    links.len(),
-                    &table.rotation,
-                );
-                links.push(link);
-                rigid
-            });
-            bodies.push(Body {
-                name: part.name,
-                rigid,
-                points: part.points,
-                blocks: part.blocks,
-                pieces: part.pieces,
-                elastic,
-                rayleigh: match table.rayleigh {
-                    Some(r) => [r.mass, r.stiffness],
-                    None => [0.0; 2],
-                },
-            });
+/// The bodies, with the links of the rigid ones.
+fn bodies(
+    problem: &Problem,
+    parts: Vec<meshes::BuiltBody>,
+    mesh: &Arc<Mesh>,
+    space: Space,
+) -> Result<BuiltBodies, Error> {
+    let mut bodies = Vec::new();
+    let mut links = Vec::new();
+    let mut materials = Vec::new();
+    let mut densities = vec![0.0; mesh.blocks.len()];
+    for part in parts {
+        let table = &problem.body[&part.name];
+        for p in &part.parts {
+            densities[p.block] = p.density;
         }
-        Ok(BuiltBodies {
-            bodies,
-            links,
-            materials,
-            densities,
-        })
-    }
-
-    /// What acts on the bodies and joins them, and the steps.
-    fn attach(&self, built: &Assembled) -> Result<Attached, Error> {
-        let &Assembled {
-            mesh,
+        let elastic = Elastic::new(
+            &part.name,
+            Arc::clone(mesh),
             space,
-            dofs,
-            bodies,
-            links,
-            frames,
-            densities,
-            sets,
-            timeline,
-            cuts,
-        } = built;
-        let rigid = built.rigid();
-        let masses = masses(self, sets, &rigid)?;
-        let domain = Domain {
-            masses: &masses,
-            mesh,
-            space,
-            densities,
-            links,
+            table.formulation,
+            part.parts,
+        )
+        .map_err(|e| problem_error(vec![e.under(&format!("body.{}", part.name))]))?;
+        let elastic = match table.rotation {
+            BodyRotation::Corotational => elastic.corotational(),
+            _ => elastic,
         };
-        let (mut loads, springs) = loads(self, sets, &domain, timeline, bodies)?;
-        let ground = Ground { mesh, space, links };
-        let (mut couplings, leads) = couplings::build(self, sets, ground, timeline)?;
-        let supports = supports(self, sets, &rigid, timeline)?;
-        let steps = timeline.steps(self, schedules::contact_at(self, &couplings));
-        couplings::refuse_prescribed_stops(&couplings, &supports, links, &steps)?;
-        let said = references::Said {
-            bodies,
-            links,
-            couplings: &couplings,
-            supports: &supports,
-            springs: &springs,
-            masses: &masses,
-            loads: &loads,
-            steps: &steps,
-            frames,
-            references: self.reference.keys().cloned().collect(),
-        };
-        let corotations = turning::corotations(self, mesh, bodies, dofs);
-        turning::refuse(self, &said, &corotations)?;
-        let references = references::build(self, &said)?;
-        let followers = references::followers(
-            &mut couplings,
-            &leads,
-            &references,
-            (links, &supports, &springs, &masses),
-            &steps,
-        );
-        references::spread(&mut loads, &followers);
-        references::refuse_massless(&couplings, &references, links, &supports, &masses, &steps)?;
-        couplings.extend(pretensions::build(self, cuts, mesh, space, timeline)?);
-        Ok(Attached {
-            loads,
-            springs,
-            masses,
-            couplings,
-            supports,
-            steps,
-            references,
-            followers,
-            corotations,
-        })
-    }
-
-    /// The interfaces, and what is said of the heights of their surfaces.
-    fn interfaces(
-        &self,
-        folder: &Path,
-        built: &Assembled,
-        attached: &Attached,
-    ) -> Result<(Vec<InterfaceDefinition>, Vec<String>), Error> {
-        let &Assembled {
-            mesh,
-            space,
-            dofs,
-            bodies,
-            links,
-            frames,
-            sets,
-            timeline,
-            ..
-        } = built;
-        let (supports, corotations) = (&attached.supports, &attached.corotations);
-        let mut held_nodes = held::HeldNodes::new(links, dofs, supports, &attached.couplings);
-        let held = mirrors::Held::new(links, dofs, supports, space);
-        let surfaces = surfaces::Surfaces {
-            mesh,
-            space,
-            bodies,
-        };
-        let mut interfaces = contact::build(self, sets, &surfaces, timeline, &held, &held_nodes)?;
-        held_nodes.mark(&mut interfaces);
-        turning::attach(frames, corotations, &mut interfaces)?;
-        turning::refuse_ties(frames, corotations, &interfaces, &attached.steps)?;
-        let heights = relief::apply(self, folder, &mut interfaces)?;
-        Ok((interfaces, heights))
-    }
-
-    /// What is reported, and how it is judged.
-    fn reports(&self, probes: Vec<Probe>) -> ReportPlan {
-        let output = &self.output;
-        let fatigue = output.fatigue.as_ref();
-        let checkpoint = &output.checkpoint;
-        ReportPlan {
-            probes,
-            output: OutputPlan {
-                every: output.every,
-                times: output.times.clone(),
-                frd: output.frd.encoding(),
-                history_every: output.history_every,
-                fatigue: fatigue.map_or(Vec::new(), |f| f.criteria.clone()),
-                fatigue_depth: fatigue.and_then(|f| f.depth),
-                checkpoint: (checkpoint.increments, 60.0 * checkpoint.minutes),
+        materials.push(part.materials);
+        let rigid = table.rigid.then(|| {
+            let hidden = mesh.points.len() + 2 * links.len();
+            let (link, rigid) = rigid::link(
+                &elastic,
+                part.points.clone(),
+                hidden,
+                links.len(),
+                &table.rotation,
+            );
+            links.push(link);
+            rigid
+        });
+        bodies.push(Body {
+            name: part.name,
+            rigid,
+            points: part.points,
+            blocks: part.blocks,
+            pieces: part.pieces,
+            elastic,
+            rayleigh: match table.rayleigh {
+                Some(r) => [r.mass, r.stiffness],
+                None => [0.0; 2],
             },
-            quality: self.quality,
-        }
+        });
     }
+    Ok(BuiltBodies {
+        bodies,
+        links,
+        materials,
+        densities,
+    })
+}
 
-    /// How increments are solved.
-    fn solution(&self) -> SolutionPlan {
-        let solver = &self.solver;
-        SolutionPlan {
-            settings: Settings {
-                tolerance: solver.tolerance,
-                max_iterations: solver.max_iterations,
-                line_search: solver.line_search,
-                krylov_patience: solver.linear.patience,
-                linear_tolerance: solver.linear.tolerance,
-            },
-            method: solver.method,
-            engine: solver.engine.clone(),
-            energy_limit: solver.energy_limit,
-            follow: solver.follow_loose_bodies,
-            largest_change: solver.largest_change.unwrap_or(f64::INFINITY),
-        }
-    }
+/// What acts on the bodies and joins them, and the steps.
+fn attach(problem: &Problem, built: &Assembled) -> Result<Attached, Error> {
+    let &Assembled {
+        mesh,
+        space,
+        dofs,
+        bodies,
+        links,
+        frames,
+        densities,
+        sets,
+        timeline,
+        cuts,
+    } = built;
+    let rigid = built.rigid();
+    let masses = masses(problem, sets, &rigid)?;
+    let domain = Domain {
+        masses: &masses,
+        mesh,
+        space,
+        densities,
+        links,
+    };
+    let (mut loads, springs) = loads(problem, sets, &domain, timeline, bodies)?;
+    let ground = Ground { mesh, space, links };
+    let (mut couplings, leads) = couplings::build(problem, sets, ground, timeline)?;
+    let supports = supports(problem, sets, &rigid, timeline)?;
+    let steps = timeline.steps(problem, schedules::contact_at(problem, &couplings));
+    couplings::refuse_prescribed_stops(&couplings, &supports, links, &steps)?;
+    let said = references::Said {
+        bodies,
+        links,
+        couplings: &couplings,
+        supports: &supports,
+        springs: &springs,
+        masses: &masses,
+        loads: &loads,
+        steps: &steps,
+        frames,
+        references: problem.reference.keys().cloned().collect(),
+    };
+    let corotations = turning::corotations(problem, mesh, bodies, dofs);
+    turning::refuse(problem, &said, &corotations)?;
+    let references = references::build(problem, &said)?;
+    let followers = references::followers(
+        &mut couplings,
+        &leads,
+        &references,
+        (links, &supports, &springs, &masses),
+        &steps,
+    );
+    references::spread(&mut loads, &followers);
+    references::refuse_massless(&couplings, &references, links, &supports, &masses, &steps)?;
+    couplings.extend(pretensions::build(problem, cuts, mesh, space, timeline)?);
+    Ok(Attached {
+        loads,
+        springs,
+        masses,
+        couplings,
+        supports,
+        steps,
+        references,
+        followers,
+        corotations,
+    })
+}
 
-    /// The model with some points of the mesh moved.
-    fn build_moved(
-        &self,
-        folder: &Path,
-        given: &Meshes,
-        moves: snap::Moves,
-    ) -> Result<Setup, Error> {
-        let space = self.model.space.with(self.model.thickness.unwrap_or(1.0));
-        let laws = heat::laws(self)?;
-        let mut built = meshes::build(self, folder, given, &laws)?;
-        snap::apply(&moves, &mut built.mesh)?;
-        let mesh = Arc::new(built.mesh);
-        let stiff = self.body.values().filter(|b| b.rigid).count();
-        let hidden = mesh.points.len() + 2 * stiff;
-        let dofs = Dofs {
-            dim: space.dim(),
-            points: hidden + 2 * self.reference.len(),
-        };
-        let referred = references::numbered(self, hidden);
-        let BuiltBodies {
-            mut bodies,
-            links: mut all_links,
-            materials,
-            densities,
-        } = self.bodies(built.bodies, &mesh, space)?;
-        let inside = built.cuts.iter().flat_map(|c| c.near.iter().chain(&c.far));
-        let inside: BTreeSet<FacetRef> = inside.copied().collect();
-        let timeline = Timeline::new(self);
-        let sets = Sets::new(self, &mesh, &bodies, inside.clone(), referred.clone())?;
-        all_links.extend(references::links(self, &sets, &mesh, space)?);
-        let links = Links::new(dofs, all_links);
-        let frames = Arc::new(turning::frames(self, &sets, &bodies, &links));
-        let temperatures = heat::temperatures(self, &sets, &mesh, space, &timeline)?;
-        let mut heat = None;
-        if let Some(temperatures) = temperatures {
-            let warmed = heat::warm(self, bodies, temperatures, &materials, &laws)?;
-            bodies = warmed.0;
-            heat = Some(Heat::new(warmed.1));
-        }
-        let sets = Sets::new(self, &mesh, &bodies, inside, referred)?;
-        let built = Assembled {
-            mesh: &mesh,
-            space,
-            dofs,
-            bodies: &bodies,
-            links: &links,
-            frames: &frames,
-            densities: &densities,
-            sets: &sets,
-            timeline: &timeline,
-            cuts: &built.cuts,
-        };
-        let attached = self.attach(&built)?;
-        let rigid = built.rigid();
-        let (interfaces, heights) = self.interfaces(folder, &built, &attached)?;
-        let initials = initial::build(self, &sets, &mesh, &rigid, folder)?;
-        initial::agree_with_supports(self, &initials, &attached.supports, &mesh, &rigid)?;
-        let probes = probes(self, &sets, &bodies)?;
-        let mut notes = moves.notes;
-        notes.extend(interfaces.iter().filter_map(|i| self.exchange_note(i)));
-        notes.extend(heights);
-        let model = Model {
-            title: self.title.clone().unwrap_or_default(),
-            space,
-            size: geometry::diameter(&mesh),
-            dofs,
-            links: links.with_followers(attached.followers),
-            frames,
-            corotations: Arc::new(attached.corotations),
-            bodies,
-            references: attached.references,
-            actions: Actions {
-                loads: attached.loads,
-                heat,
-                fields: Vec::new(),
-                springs: attached.springs,
-                masses: attached.masses,
-                supports: attached.supports,
-                initials,
-            },
-            steps: attached.steps,
-            reports: self.reports(probes),
-            solution: self.solution(),
-            unused: unused::tables(self),
-            waves: relief::waves(self),
-            mesh,
-        };
-        Ok(Setup {
-            model,
-            contact: Contact {
-                interfaces: interfaces.into_iter().map(Interface::new).collect(),
-                couplings: Couplings::new(attached.couplings, space.dim()),
-            },
-            notes,
-        })
+/// The interfaces, and what is said of the heights of their surfaces.
+fn interfaces(
+    problem: &Problem,
+    folder: &Path,
+    built: &Assembled,
+    attached: &Attached,
+) -> Result<(Vec<InterfaceDefinition>, Vec<String>), Error> {
+    let &Assembled {
+        mesh,
+        space,
+        dofs,
+        bodies,
+        links,
+        frames,
+        sets,
+        timeline,
+        ..
+    } = built;
+    let (supports, corotations) = (&attached.supports, &attached.corotations);
+    let mut held_nodes = held::HeldNodes::new(links, dofs, supports, &attached.couplings);
+    let held = mirrors::Held::new(links, dofs, supports, space);
+    let surfaces = surfaces::Surfaces {
+        mesh,
+        space,
+        bodies,
+    };
+    let mut interfaces = contact::build(problem, sets, &surfaces, timeline, &held, &held_nodes)?;
+    held_nodes.mark(&mut interfaces);
+    turning::attach(frames, corotations, &mut interfaces)?;
+    turning::refuse_ties(frames, corotations, &interfaces, &attached.steps)?;
+    let heights = relief::apply(problem, folder, &mut interfaces)?;
+    Ok((interfaces, heights))
+}
+
+/// What is reported, and how it is judged.
+fn reports(problem: &Problem, probes: Vec<Probe>) -> ReportPlan {
+    let output = &problem.output;
+    let fatigue = output.fatigue.as_ref();
+    let checkpoint = &output.checkpoint;
+    ReportPlan {
+        probes,
+        output: OutputPlan {
+            every: output.every,
+            times: output.times.clone(),
+            frd: output.frd.encoding(),
+            history_every: output.history_every,
+            fatigue: fatigue.map_or(Vec::new(), |f| f.criteria.clone()),
+            fatigue_depth: fatigue.and_then(|f| f.depth),
+            checkpoint: (checkpoint.increments, 60.0 * checkpoint.minutes),
+        },
+        quality: problem.quality,
     }
+}
+
+/// How increments are solved.
+fn solution(problem: &Problem) -> SolutionPlan {
+    let solver = &problem.solver;
+    SolutionPlan {
+        settings: Settings {
+            tolerance: solver.tolerance,
+            max_iterations: solver.max_iterations,
+            line_search: solver.line_search,
+            krylov_patience: solver.linear.patience,
+            linear_tolerance: solver.linear.tolerance,
+        },
+        method: solver.method,
+        engine: solver.engine.clone(),
+        energy_limit: solver.energy_limit,
+        follow: solver.follow_loose_bodies,
+        largest_change: solver.largest_change.unwrap_or(f64::INFINITY),
+    }
+}
+
+/// The model with some points of the mesh moved.
+fn build_moved(
+    problem: &Problem,
+    folder: &Path,
+    given: &Meshes,
+    moves: snap::Moves,
+) -> Result<Setup, Error> {
+    let space = problem
+        .model
+        .space
+        .with(problem.model.thickness.unwrap_or(1.0));
+    let laws = heat::laws(problem)?;
+    let mut built = meshes::build(problem, folder, given, &laws)?;
+    snap::apply(&moves, &mut built.mesh)?;
+    let mesh = Arc::new(built.mesh);
+    let stiff = problem.body.values().filter(|b| b.rigid).count();
+    let hidden = mesh.points.len() + 2 * stiff;
+    let dofs = Dofs {
+        dim: space.dim(),
+        points: hidden + 2 * problem.reference.len(),
+    };
+    let referred = references::numbered(problem, hidden);
+    let BuiltBodies {
+        mut bodies,
+        links: mut all_links,
+        materials,
+        densities,
+    } = bodies(problem, built.bodies, &mesh, space)?;
+    let inside = built.cuts.iter().flat_map(|c| c.near.iter().chain(&c.far));
+    let inside: BTreeSet<FacetRef> = inside.copied().collect();
+    let timeline = Timeline::new(problem);
+    let sets = Sets::new(problem, &mesh, &bodies, inside.clone(), referred.clone())?;
+    all_links.extend(references::links(problem, &sets, &mesh, space)?);
+    let links = Links::new(dofs, all_links);
+    let frames = Arc::new(turning::frames(problem, &sets, &bodies, &links));
+    let temperatures = heat::temperatures(problem, &sets, &mesh, space, &timeline)?;
+    let mut heat = None;
+    if let Some(temperatures) = temperatures {
+        let warmed = heat::warm(problem, bodies, temperatures, &materials, &laws)?;
+        bodies = warmed.0;
+        heat = Some(Heat::new(warmed.1));
+    }
+    let sets = Sets::new(problem, &mesh, &bodies, inside, referred)?;
+    let built = Assembled {
+        mesh: &mesh,
+        space,
+        dofs,
+        bodies: &bodies,
+        links: &links,
+        frames: &frames,
+        densities: &densities,
+        sets: &sets,
+        timeline: &timeline,
+        cuts: &built.cuts,
+    };
+    let attached = attach(problem, &built)?;
+    let rigid = built.rigid();
+    let (interfaces, heights) = interfaces(problem, folder, &built, &attached)?;
+    let initials = initial::build(problem, &sets, &mesh, &rigid, folder)?;
+    initial::agree_with_supports(problem, &initials, &attached.supports, &mesh, &rigid)?;
+    let probes = probes(problem, &sets, &bodies)?;
+    let mut notes = moves.notes;
+    notes.extend(interfaces.iter().filter_map(|i| exchange_note(problem, i)));
+    notes.extend(heights);
+    let model = Model {
+        title: problem.title.clone().unwrap_or_default(),
+        space,
+        size: geometry::diameter(&mesh),
+        dofs,
+        links: links.with_followers(attached.followers),
+        frames,
+        corotations: Arc::new(attached.corotations),
+        bodies,
+        references: attached.references,
+        actions: Actions {
+            loads: attached.loads,
+            heat,
+            fields: Vec::new(),
+            springs: attached.springs,
+            masses: attached.masses,
+            supports: attached.supports,
+            initials,
+        },
+        steps: attached.steps,
+        reports: reports(problem, probes),
+        solution: solution(problem),
+        unused: unused::tables(problem),
+        waves: relief::waves(problem),
+        mesh,
+    };
+    Ok(Setup {
+        model,
+        contact: Contact {
+            interfaces: interfaces.into_iter().map(Interface::new).collect(),
+            couplings: Couplings::new(attached.couplings, space.dim()),
+        },
+        notes,
+    })
 }
 
 fn loads(

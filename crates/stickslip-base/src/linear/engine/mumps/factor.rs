@@ -3,7 +3,8 @@ use std::path::Path;
 use std::sync::atomic::Ordering;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::body::{Body, Written};
+use super::body::Body;
+use super::entries::{self, Written};
 use super::number::Number;
 use super::options::MumpsOptions;
 use super::refusal::{not_finite, refusal};
@@ -97,7 +98,7 @@ impl Factor {
             file,
             by_ranks,
             pieces,
-        } = body.write(matrix)?;
+        } = entries::write(body, matrix)?;
         let (n, c) = (body.split.len(), body.split.root.len());
         let MumpsOptions {
             out_of_core,
@@ -133,7 +134,7 @@ impl Factor {
                 pieces,
                 trace: figure(4).unwrap_or(f64::NAN),
             })),
-            false => Schur::Here(body.read_schur(&file, workspace)?),
+            false => Schur::Here(read_schur(body, &file, workspace)?),
         };
         let factor = Factor {
             body: Arc::clone(body),
@@ -188,25 +189,23 @@ impl Factor {
     }
 }
 
-impl Body {
-    /// The Schur complement that rank 0 has written: of its lower triangle, column by column.
-    fn read_schur(&self, file: &str, workspace: &Workspace) -> Result<Numbers, LinearError> {
-        let c = self.split.root.len();
-        let mut values = workspace.take(c * c)?;
-        values.fill(0.0);
-        let path = self.job.folder().join(format!("{file}.schur"));
-        let mut read = || -> io::Result<()> {
-            let mut reader = WordReader::new(&path)?;
-            for (j, column) in values.chunks_exact_mut(c.max(1)).enumerate() {
-                reader.numbers(&mut column[j..])?;
-            }
-            reader.finish()
-        };
-        if c > 0 {
-            read().map_err(|e| self.job.trouble(&e))?;
+/// The Schur complement that rank 0 has written: of its lower triangle, column by column.
+fn read_schur(body: &Body, file: &str, workspace: &Workspace) -> Result<Numbers, LinearError> {
+    let c = body.split.root.len();
+    let mut values = workspace.take(c * c)?;
+    values.fill(0.0);
+    let path = body.job.folder().join(format!("{file}.schur"));
+    let mut read = || -> io::Result<()> {
+        let mut reader = WordReader::new(&path)?;
+        for (j, column) in values.chunks_exact_mut(c.max(1)).enumerate() {
+            reader.numbers(&mut column[j..])?;
         }
-        Ok(values)
+        reader.finish()
+    };
+    if c > 0 {
+        read().map_err(|e| body.job.trouble(&e))?;
     }
+    Ok(values)
 }
 
 impl Interior for Factor {

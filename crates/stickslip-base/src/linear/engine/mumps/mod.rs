@@ -10,6 +10,7 @@
 mod body;
 mod cells;
 mod engine;
+mod entries;
 mod factor;
 mod folder;
 mod job;
