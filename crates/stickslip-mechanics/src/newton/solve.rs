@@ -84,7 +84,7 @@ impl Newton {
         let begun = self.statistics.iterations;
         self.fallbacks.clear();
         self.unsolved = None;
-        let interrupt = self.interrupt.as_deref();
+        let interrupt = (self.interrupt.as_deref()).filter(|_| system.stoppable);
         let mut attempt = Attempt {
             system,
             from,

@@ -23,6 +23,8 @@ pub struct System<'a> {
     pub constraints: Constraints,
     /// Rigid bodies; the dofs of their points are fixed, and the bulk has nothing there.
     pub links: &'a Links,
+    /// Whether the solution is given up when the analysis is asked to stop.
+    pub stoppable: bool,
 }
 
 /// Most points that a failure names.

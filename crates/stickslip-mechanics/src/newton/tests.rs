@@ -126,6 +126,7 @@ impl Springs {
             frames: None,
             constraints: Constraints::none(DOFS),
             links: &links,
+            stoppable: true,
         };
         let from = State {
             u: vec![0.0; 4],

@@ -18,7 +18,7 @@ use crate::newton::{Converged, Origin};
 use crate::solve::accepted::Accepted;
 use crate::solve::checks::{check_candidates, check_change};
 use crate::solve::condensed::in_motion;
-use crate::solve::inertia::{Inertia, in_motion};
+use crate::solve::inertia::{IncrementMatrix, Inertia, in_motion};
 use crate::solve::iteration::{Load, Task};
 use crate::solve::solver::{Solver, entries};
 use crate::system::{
@@ -28,14 +28,6 @@ use crate::time::Trial;
 use crate::time::newmark::{Increment, error_factor};
 use crate::time::scheme::Alphas;
 
-/// The backward Euler method: no force of the start has a part in it.
-pub(super) const BACKWARD: Alphas = Alphas {
-    alpha_m: 0.0,
-    alpha_f: 0.0,
-    beta: 1.0,
-    gamma: 1.0,
-};
-
 /// Makes increments of a step in motion, each an equilibrium at the stage of a scheme.
 #[derive(Clone)]
 pub(crate) struct Implicit {
@@ -43,6 +35,20 @@ pub(crate) struct Implicit {
     pub dynamic: Dynamic,
     /// The scheme.
     pub alphas: Alphas,
+    /// What its increments are for.
+    pub purpose: Purpose,
+}
+
+/// What increments are for.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Purpose {
+    /// To be accepted.
+    Analysis,
+    /// To find forces at the start of a step: they are not handed on, and cannot be tried again once the analysis is asked to stop.
+    Onset {
+        /// Whether Rayleigh damping acts.
+        damped: bool,
+    },
 }
 
 /// One increment that has converged.
@@ -214,6 +220,15 @@ impl Integrator for Implicit {
 }
 
 impl Implicit {
+    /// Makes increments of the analysis.
+    pub fn new(dynamic: Dynamic, alphas: Alphas) -> Self {
+        Implicit {
+            dynamic,
+            alphas,
+            purpose: Purpose::Analysis,
+        }
+    }
+
     /// Tries an increment in which bodies turn freely.
     fn turning(
         &self,
@@ -259,8 +274,7 @@ impl Implicit {
             (solver.inertia.as_mut()).expect("a step in motion has begun with its masses");
         let length = trial.to - trial.from;
         let times = [trial.from, trial.to];
-        // A trial increment of Euler's method finds forces, and hands nothing on.
-        let impulse = self.alphas != BACKWARD
+        let impulse = self.purpose == Purpose::Analysis
             && is_impulse(model, frame, &self.dynamic, contact, inertia, times);
         let scheme = self.meeting(impulse);
         let weights = scheme.weights(impulse);
@@ -268,11 +282,9 @@ impl Implicit {
         conditions.for_each(|c| c.impulses = impulse);
         let dt = inertia.ready(
             entries(&solver.stiffness),
-            scheme.alphas,
-            length,
-            weights[1],
+            scheme.matrix(length, weights[1]),
         );
-        let plain = inertia.plain(&fixed, &model.links);
+        let plain = inertia.plain(&fixed, &model.links, self.damped());
         let from = impulse_start(model, frame, contact, inertia, &fixed, impulse)?;
         let increment = Increment {
             alphas: scheme.alphas,
@@ -449,6 +461,21 @@ impl Implicit {
         Ok(impact)
     }
 
+    /// Whether Rayleigh damping acts.
+    fn damped(&self) -> bool {
+        self.purpose != Purpose::Onset { damped: false }
+    }
+
+    /// The matrix of an increment of this length.
+    fn matrix(&self, dt: f64, weight: f64) -> IncrementMatrix {
+        IncrementMatrix {
+            alphas: self.alphas,
+            dt,
+            weight,
+            damped: self.damped(),
+        }
+    }
+
     /// The scheme of an increment: that of masses that meet has `β = γ/2`, see [`super::impulse`].
     fn meeting(&self, impulse: bool) -> Implicit {
         let mut scheme = self.clone();
@@ -534,6 +561,7 @@ impl Implicit {
             frames,
             from: &frame.state,
             contacts: &frame.contacts,
+            stoppable: self.purpose == Purpose::Analysis,
         };
         let mut converged = match condensed {
             true => {
@@ -644,7 +672,8 @@ impl Implicit {
         }
         let (load, contact) = start;
         let stage = weighted_mean(alpha_f, &from.u, u);
-        let damping = solver.damping_force(&stage, &weighted_mean(alpha_f, &from.v, &v));
+        let damping =
+            solver.damping_force(self.damped(), &stage, &weighted_mean(alpha_f, &from.v, &v));
         let load = weighted_mean(alpha_f, &load, external);
         let forces = (0..u.len())
             .map(|i| inertial[i] + internal[i] + damping[i] - load[i] + old * contact[i])
@@ -712,8 +741,8 @@ impl Implicit {
                 - half * dot(&load, &du);
         // As bodies lie at the stage.
         let stage = weighted_mean(alphas.alpha_f, &from.u, &to.u);
-        let damped = dot(&du, &solver.damping_force(&stage, &mean_v));
-        numerical += half * dot(&dv, &solver.damping_force(&stage, &du));
+        let damped = dot(&du, &solver.damping_force(self.damped(), &stage, &mean_v));
+        numerical += half * dot(&dv, &solver.damping_force(self.damped(), &stage, &du));
         Flow {
             work,
             damped,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::implicit::{BACKWARD, Implicit};
+use super::implicit::{Implicit, Purpose};
 use super::integrator::Integrator;
 use super::sight::frames_here;
 use crate::body::couplings::{Couplings, MotionStart, motion};
@@ -23,6 +23,14 @@ use crate::system::{Deformed, IncrementalRotation, Links, Stage, State, StepFail
 use crate::time::Trial;
 use crate::time::scheme::Alphas;
 
+/// The backward Euler method: no force of the start has a part in it.
+const BACKWARD: Alphas = Alphas {
+    alpha_m: 0.0,
+    alpha_f: 0.0,
+    beta: 1.0,
+    gamma: 1.0,
+};
+
 /// Fraction of the duration of a step after its start at which loads that begin with the step are read. It is more than rounding of times.
 pub(crate) const JUST_AFTER: f64 = 1e-9;
 
@@ -42,7 +50,7 @@ pub fn begin(
     dynamic: Dynamic,
     alphas: Alphas,
 ) -> Result<Implicit, Error> {
-    let implicit = Implicit { dynamic, alphas };
+    let implicit = Implicit::new(dynamic, alphas);
     start_motion(model, frame, contact, solver, &dynamic);
     candidates::choose_candidates(solver, model, frame, contact);
     start_forces(&implicit, model, frame, contact, solver)?;
@@ -104,14 +112,10 @@ fn equilibrate_massless(
         // Length of the trial increment, in first increments: none to speak of.
         to: frame.state.t + 1e-3 * dt,
     };
-    let damping = solver.inertia.as_mut()?.damping.take();
-    let tried = euler(implicit).attempt(model, frame, contact, solver, trial);
+    let tried = euler(implicit, false).attempt(model, frame, contact, solver, trial);
     solver.seen.clear();
-    let inertia = solver.inertia.as_mut()?;
-    inertia.damping = damping;
-    // It knows of no damping.
-    inertia.forget_matrices();
     let accepted = tried.ok()?;
+    let inertia = in_motion(&solver.inertia);
     let contacts = Arc::make_mut(&mut frame.contacts);
     let all = contact.interfaces.iter().zip(&mut contacts.interfaces);
     for ((interface, history), conditions) in all.zip(&solver.conditions) {
@@ -136,7 +140,7 @@ fn equilibrate_massless(
 }
 
 /// The method of Euler with what else is chosen.
-fn euler(implicit: &Implicit) -> Implicit {
+fn euler(implicit: &Implicit, damped: bool) -> Implicit {
     Implicit {
         dynamic: Dynamic {
             contact_at: ContactAt::End,
@@ -145,6 +149,7 @@ fn euler(implicit: &Implicit) -> Implicit {
             ..implicit.dynamic
         },
         alphas: BACKWARD,
+        purpose: Purpose::Onset { damped },
     }
 }
 
@@ -164,7 +169,7 @@ fn tried_contact(
     if !forces_are_sought(model, contact, inertia, t + JUST_AFTER * dt) {
         return None;
     }
-    let mut euler = euler(implicit);
+    let mut euler = euler(implicit, true);
     let tried = TRIALS.map(|part| {
         let trial = Trial {
             from: t,
@@ -420,7 +425,7 @@ fn initial_acceleration(
 ) -> Result<(), StepFailure> {
     let inertia = in_motion(&solver.inertia);
     let internal = &frame.motion.internal;
-    let damping = solver.damping_force(&frame.state.u, &frame.state.v);
+    let damping = solver.damping_force(true, &frame.state.u, &frame.state.v);
     let mut force: Vec<f64> = (0..internal.len())
         .map(|i| frame.load[i] - internal[i] - damping[i] - frame.contact[i])
         .collect();

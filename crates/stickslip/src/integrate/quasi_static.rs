@@ -65,6 +65,7 @@ impl Integrator for QuasiStatic {
             frames: None,
             from: &frame.state,
             contacts: &frame.contacts,
+            stoppable: true,
         };
         let converged = solver.solve_sparse(model, contact, task, &mut at)?;
         check_change(model, pairs(&at.u, &frame.state.u))?;

@@ -87,6 +87,7 @@ fn pass(
         frames: Some(&sight.all),
         from: &inside.state,
         contacts: &inside.contacts,
+        stoppable: true,
     };
     let converged = solver.solve_sparse(model, contact, task, &mut at)?;
     external.clear();

@@ -64,13 +64,9 @@ pub(super) fn begin_step(run: &mut Run, step: usize) -> Result<(), Error> {
     let contacts = Arc::make_mut(&mut frame.contacts);
     contact.use_springs(contacts, false, |energy| frame.ledger.initial += energy);
     run.integrator = match dynamic.method {
-        Method::Implicit(alphas) => {
-            // What is tried for the forces at the start is no increment that could be tried again.
-            let interrupt = solver.newton.interrupt.take();
-            let begun = onset::begin(model, frame, contact, solver, dynamic, alphas);
-            solver.newton.interrupt = interrupt;
-            Box::new(begun?)
-        }
+        Method::Implicit(alphas) => Box::new(onset::begin(
+            model, frame, contact, solver, dynamic, alphas,
+        )?),
         Method::Explicit { .. } => {
             candidates::keep_all_points(solver, model, contact);
             let explicit = Explicit::begin(model, frame, contact, &solver.conditions, &dynamic)?;

@@ -121,7 +121,7 @@ fn integrator(model: &Model, step: usize, explicit: Option<ExplicitState>) -> Bo
         return Box::new(QuasiStatic);
     };
     match (dynamic.method, explicit) {
-        (Method::Implicit(alphas), _) => Box::new(Implicit { dynamic, alphas }),
+        (Method::Implicit(alphas), _) => Box::new(Implicit::new(dynamic, alphas)),
         (method, Some(state)) => Box::new(Explicit::again(model, method, state)),
         (method, None) => Box::new(Explicit::new(model, method)),
     }

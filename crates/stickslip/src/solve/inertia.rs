@@ -40,6 +40,7 @@ struct Matrix {
     dt: f64,
     alphas: Alphas,
     weight: f64,
+    damped: bool,
     values: BlockCsr,
     diagonal: Vec<f64>,
 }
@@ -59,6 +60,19 @@ struct MatrixRecipe {
     dt: f64,
     alphas: Alphas,
     weight: f64,
+    damped: bool,
+}
+
+/// What the matrix of an increment depends on.
+pub(crate) struct IncrementMatrix {
+    /// The scheme.
+    pub alphas: Alphas,
+    /// About its length.
+    pub dt: f64,
+    /// The weight that interfaces have in the balance.
+    pub weight: f64,
+    /// Whether Rayleigh damping acts.
+    pub damped: bool,
 }
 
 /// Most matrices that are kept.
@@ -154,11 +168,6 @@ impl Inertia {
             .collect()
     }
 
-    /// Drops the matrices of increments.
-    pub fn forget_matrices(&mut self) {
-        self.matrices.clear();
-    }
-
     /// Whether it serves a step with these settings.
     pub fn suits(&self, contact: &Contact, dynamic: &Dynamic) -> bool {
         self.mass_kind == dynamic.mass && self.redistributed == redistributed(contact, dynamic)
@@ -170,8 +179,9 @@ impl Inertia {
     }
 
     /// Dofs that have the mean velocity of an increment; of the points of rigid bodies those that only fixed dofs move.
-    pub fn plain(&self, fixed: &[bool], links: &Links) -> Vec<bool> {
-        let light = self.light.iter().map(|&l| l && self.damping.is_none());
+    pub fn plain(&self, fixed: &[bool], links: &Links, damped: bool) -> Vec<bool> {
+        let damped = damped && self.damping.is_some();
+        let light = self.light.iter().map(|&l| l && !damped);
         let mut plain: Vec<bool> = light.zip(fixed).map(|(l, &f)| l || f).collect();
         links.still(fixed, &mut plain);
         plain
@@ -188,10 +198,19 @@ impl Inertia {
     ///
     /// `A = [(1 - α_m) / (β dt²) M + (1 - α_f) (γ / (β dt) C + K)] / weight`, the derivative of the balance at the stage with respect to the
     /// displacement at the end, over the weight that the interfaces have in it.
-    pub fn ready(&mut self, stiffness: &BlockCsr, alphas: Alphas, dt: f64, weight: f64) -> f64 {
+    pub fn ready(&mut self, stiffness: &BlockCsr, wanted: IncrementMatrix) -> f64 {
+        let IncrementMatrix {
+            alphas,
+            dt,
+            weight,
+            damped,
+        } = wanted;
         let found = self.matrices.iter().position(|m| {
             // Rounding of times leaves such a difference of lengths.
-            (m.dt - dt).abs() <= SAME * dt && m.alphas == alphas && m.weight == weight
+            (m.dt - dt).abs() <= SAME * dt
+                && m.alphas == alphas
+                && m.weight == weight
+                && m.damped == damped
         });
         let matrix = match found {
             Some(i) => self.matrices.remove(i),
@@ -202,6 +221,7 @@ impl Inertia {
                     dt,
                     alphas,
                     weight,
+                    damped,
                 };
                 self.make(stiffness, recipe)
             }
@@ -220,11 +240,12 @@ impl Inertia {
             dt,
             alphas,
             weight,
+            damped,
         } = recipe;
         let [mass, damping, elastic] = factors(alphas, dt, weight);
         let mut values = self.mass.zeros_like();
         values.add_scaled(mass, &self.mass);
-        if let Some(matrix) = &self.damping {
+        if let Some(matrix) = self.damping.as_ref().filter(|_| damped) {
             values.add_scaled(damping, matrix);
         }
         values.add_scaled(elastic, stiffness);
@@ -233,6 +254,7 @@ impl Inertia {
             dt,
             alphas,
             weight,
+            damped,
             diagonal: values.diagonal(),
             values,
         }
@@ -245,6 +267,7 @@ impl Inertia {
             dt: m.dt,
             alphas: m.alphas,
             weight: m.weight,
+            damped: m.damped,
         };
         InertiaRecipe {
             mass_kind: self.mass_kind,
@@ -292,7 +315,7 @@ impl Inertia {
         for (o, k) in out.iter_mut().zip(stiffness_x) {
             *o = mass * *o + stiffness * k;
         }
-        if let Some(c) = &self.damping {
+        if let Some(c) = self.damping.as_ref().filter(|_| m.damped) {
             for (o, c) in out.iter_mut().zip(times(c, x)) {
                 *o += damping * c;
             }

@@ -30,6 +30,8 @@ pub(crate) struct Task<'a> {
     pub from: &'a State,
     /// What interfaces and couplings know there.
     pub contacts: &'a ContactMemory,
+    /// Whether it is given up when the analysis is asked to stop: an increment can be tried again.
+    pub stoppable: bool,
 }
 
 /// Newton's method on one system: where all increments are solved.
@@ -41,6 +43,7 @@ pub(crate) struct Iteration<'a> {
     pub bulk: &'a mut dyn Bulk,
     pub rate: Option<Rate<'a>>,
     pub frames: Option<&'a Arc<BodyFrames>>,
+    pub stoppable: bool,
 }
 
 impl<'a> Iteration<'a> {
@@ -59,6 +62,7 @@ impl<'a> Iteration<'a> {
             frames: self.frames,
             constraints,
             links: &self.model.links,
+            stoppable: self.stoppable,
         };
         let seen = self.seen;
         (self.newton).solve(&mut system, from, at, &mut |p| seen.push(p))

@@ -129,11 +129,11 @@ impl Solver {
         self.bodies.energy(Deformed { u, forces })
     }
 
-    /// Forces of Rayleigh damping at displacements and velocities, in motion `[N]`.
-    pub fn damping_force(&self, u: &[f64], v: &[f64]) -> Vec<f64> {
+    /// Forces of Rayleigh damping at displacements and velocities, in motion `[N]`; zero where it does not act.
+    pub fn damping_force(&self, acts: bool, u: &[f64], v: &[f64]) -> Vec<f64> {
         match &in_motion(&self.inertia).damping {
-            Some(damping) => self.bodies.damping(&|v| times(damping, v), u, v),
-            None => vec![0.0; v.len()],
+            Some(damping) if acts => self.bodies.damping(&|v| times(damping, v), u, v),
+            _ => vec![0.0; v.len()],
         }
     }
 
@@ -180,6 +180,7 @@ impl Solver {
                 ),
                 rate: task.rate,
                 frames: task.frames,
+                stoppable: task.stoppable,
             }
             .solve(task.constraints, task.from, at);
         }
@@ -192,6 +193,7 @@ impl Solver {
             bulk: &mut SparseBulk::new(matrix, diagonal, external, fixed, origin, linearised),
             rate: task.rate,
             frames: task.frames,
+            stoppable: task.stoppable,
         }
         .solve(task.constraints, task.from, at)
     }

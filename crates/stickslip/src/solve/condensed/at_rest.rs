@@ -87,6 +87,7 @@ pub fn attempt_condensed(
         bulk: &mut bulk,
         rate: None,
         frames: None,
+        stoppable: true,
     }
     .solve(constraints, from, &mut at);
     *found = Some((amplitudes, bulk.carried()));

@@ -104,6 +104,7 @@ pub fn solve_condensed(
         bulk: &mut bulk,
         rate: task.rate,
         frames: task.frames,
+        stoppable: task.stoppable,
     }
     .solve(task.constraints, task.from, at)?;
     let started = Instant::now();
