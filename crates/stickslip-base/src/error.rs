@@ -1,5 +1,6 @@
 //! Errors by phase: the problem file, the mesh, the run, files.
 
+use crate::number::digits;
 use std::borrow::Cow;
 use std::fmt;
 use std::ops::Range;
@@ -243,7 +244,7 @@ impl fmt::Display for MeshError {
 
 impl fmt::Display for RunError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "at time {:.6e}: {}", self.time, self.message)?;
+        write!(f, "at time {}: {}", digits(self.time, 6), self.message)?;
         for culprit in &self.culprits {
             write!(f, "\n  - {culprit}")?;
         }
@@ -258,7 +259,9 @@ impl fmt::Display for Error {
             Error::Mesh(e) => e.fmt(f),
             Error::Run(e) => e.fmt(f),
             Error::Io(e) => write!(f, "{}: {}", e.file.display(), e.message),
-            Error::Interrupted(time) => write!(f, "interrupted at time {time:.6e}"),
+            Error::Interrupted(time) => {
+                write!(f, "interrupted at time {time}", time = digits(time, 6))
+            }
         }
     }
 }

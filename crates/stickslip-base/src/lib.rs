@@ -9,6 +9,7 @@ pub mod error;
 pub mod keep;
 pub mod machine;
 pub mod math;
+pub mod number;
 pub mod owner;
 pub mod references;
 pub mod registry;

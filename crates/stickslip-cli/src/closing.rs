@@ -6,10 +6,11 @@ use stickslip::assess::doctor::Finding;
 use stickslip::assess::{Figure, Gate, InterfaceSummary, Peak};
 use stickslip::math::norm;
 use stickslip::model::GateMode;
+use stickslip::number::{digits, figure, vector};
 use stickslip::results::{Analysis, Summary};
 use stickslip::tolerance::SAME;
 
-use crate::style::{self, Look, digits, figure, paint, sentence, vector};
+use crate::style::{self, Look, paint, sentence};
 use crate::voice::say;
 use stickslip::mesh::geometry;
 
@@ -170,21 +171,23 @@ fn internals(analysis: &Analysis) -> Vec<String> {
     }
     if analysis.model.moves() {
         lines.push(format!(
-            "  energy: the balance is open by {:.1e} of the energies in play",
-            s.balance.energy_quality.residual
+            "  energy: the error of the balance is {} of the total energy",
+            digits(s.balance.energy_quality.residual, 2)
         ));
     }
     for i in &s.interfaces {
         lines.push(format!(
-            "  {}: largest penetration {:.1e} of the cell size, {:.1e} of the elastic approach",
-            i.name, i.quality.relative_to_size, i.relative_to_approach
+            "  {}: largest penetration {} of the cell size, {} of the elastic approach",
+            i.name,
+            digits(i.quality.relative_to_size, 2),
+            digits(i.relative_to_approach, 2)
         ));
         if let Some(n) = &i.numerical_stiffness {
             lines.push(format!(
-                "  {}: independent of the numerical stiffness to {:.1e} % (factor {:.3e})",
+                "  {}: independent of the numerical stiffness to {} % (factor {})",
                 i.name,
-                100.0 * n.independent_to,
-                n.factor
+                digits(100.0 * n.independent_to, 2),
+                figure(n.factor)
             ));
         }
     }
@@ -194,7 +197,7 @@ fn internals(analysis: &Analysis) -> Vec<String> {
 fn phases(s: &Summary) -> String {
     let p = &s.cost.phases;
     format!(
-        "  read {:.2}, assemble {:.2}, order {:.2}, factor {:.2}, condense {:.2}, iterate {:.2}, contact {:.2}, recover {:.2}, write {:.2} s; {:.2e} flops, {:.2} GB",
+        "  read {:.2}, assemble {:.2}, order {:.2}, factor {:.2}, condense {:.2}, iterate {:.2}, contact {:.2}, recover {:.2}, write {:.2} s; {} flops, {:.2} GB",
         p.read,
         p.assemble,
         p.order,
@@ -204,7 +207,7 @@ fn phases(s: &Summary) -> String {
         p.contact,
         p.recover,
         p.write,
-        s.cost.solver.factors.flops,
+        digits(s.cost.solver.factors.flops, 3),
         s.cost.peak_memory as f64 / 1e9
     )
 }

@@ -7,10 +7,11 @@ use stickslip::Error;
 use stickslip::assess::doctor::{Finding, Severity};
 use stickslip::modal::ModalOutcome;
 use stickslip::newton::Strategy;
+use stickslip::number::{digits, figure};
 use stickslip::results::{Analysis, Event, Observer, Row};
 
 use crate::remaining::{Remaining, part};
-use crate::style::{Look, digits, figure, paint, sentence, short};
+use crate::style::{Look, paint, sentence, short};
 use crate::voice::ProgressPrinter;
 pub use crate::voice::say;
 
@@ -195,8 +196,10 @@ impl Observer for Progress {
             Event::Note(text) => self.line(&sentence(&format!("  {text}"))),
             Event::Cutback(trial, failure) => {
                 self.line(&sentence(&format!(
-                    "  cut back: {:.5e} to {:.5e}: {}",
-                    trial.from, trial.to, failure.message
+                    "  cut back: {} to {}: {}",
+                    digits(trial.from, 6),
+                    digits(trial.to, 6),
+                    failure.message
                 )));
                 for culprit in failure.culprits.iter().take(3) {
                     self.line(&sentence(&format!("    {culprit}")));
@@ -236,10 +239,10 @@ fn internals(analysis: &Analysis, row: &Row) -> String {
     let worst = analysis.worst_point();
     let worst = worst.map_or(String::new(), |p| format!(", worst node {p}"));
     format!(
-        "    residual {:.1e}, attempt {}, energy open by {:.1e}{worst}",
-        column("RESIDUAL"),
+        "    residual {}, attempt {}, energy error {}{worst}",
+        digits(column("RESIDUAL"), 2),
         column("ATT"),
-        column("ERESIDUAL") / scale
+        digits(column("ERESIDUAL") / scale, 2)
     )
 }
 

@@ -6,6 +6,7 @@ use stickslip::error::{ProblemError, shown};
 
 use crate::failure::Failure;
 use crate::print;
+use stickslip::number::digits;
 
 /// Prints why a command failed.
 pub fn failure(failure: &Failure) {
@@ -26,7 +27,10 @@ fn text(failure: &Failure, renderer: &Renderer) -> String {
     match failure {
         Failure::Library(Error::Problem(error)) => problem(error, renderer),
         Failure::Library(Error::Interrupted(time)) => {
-            format!("interrupted at time {time:.6e}; the results up to there are complete")
+            format!(
+                "interrupted at time {time}; the results up to there are complete",
+                time = digits(time, 6)
+            )
         }
         Failure::Library(other) => format!("error: {other}"),
         Failure::Deck(error) => error.to_string(),
@@ -88,7 +92,7 @@ mod tests {
         let error = Problem::from_toml(text, Some(Path::new("case.toml"))).unwrap_err();
         assert_eq!(
             problem(&error, &Renderer::plain()),
-            "error: step.0.durtion: unknown key `durtion`\n \
+            "error: step.1.durtion: unknown key `durtion`\n \
              --> case.toml:9:1\n  \
              |\n\
              9 | durtion = 1\n  \

@@ -2,7 +2,6 @@
 
 use std::io::IsTerminal;
 use std::sync::LazyLock;
-use stickslip::tolerance::SAME;
 
 /// Columns of a line.
 pub const WIDTH: usize = 100;
@@ -83,46 +82,6 @@ fn is_look(code: &str) -> bool {
     matches!(code.parse::<u8>(), Ok(0 | 1 | 4 | 30..=37 | 39 | 90..=97))
 }
 
-/// A number with four digits, without zeros that say nothing.
-pub fn figure(x: f64) -> String {
-    digits(x, 4)
-}
-
-/// The same with as many digits as are asked for.
-pub fn digits(x: f64, count: usize) -> String {
-    if x == 0.0 {
-        return "0".into();
-    }
-    if !x.is_finite() {
-        return x.to_string();
-    }
-    // Rounded first: 9.9999 has two places before the point with four digits.
-    let text = format!("{x:.*e}", count.saturating_sub(1));
-    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
-    let exponent: i32 = exponent.parse().unwrap_or(0);
-    if (-3..count as i32 + 1).contains(&exponent) {
-        let places = (count as i32 - 1 - exponent).max(0) as usize;
-        return trimmed(&format!("{x:.places$}")).to_string();
-    }
-    format!("{}e{exponent}", trimmed(mantissa))
-}
-
-fn trimmed(text: &str) -> &str {
-    match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.'),
-        false => text,
-    }
-}
-
-/// A vector, where what is nothing but rounding beside `scale` is zero.
-pub fn vector(components: &[f64], scale: f64) -> String {
-    let each = components.iter().map(|c| match c.abs() <= SAME * scale {
-        true => "0".to_string(),
-        false => figure(*c),
-    });
-    format!("({})", each.collect::<Vec<_>>().join(", "))
-}
-
 /// A name in so many columns.
 pub fn short(name: &str, most: usize) -> String {
     match name.chars().count() > most {
@@ -185,28 +144,6 @@ mod tests {
             assert_eq!(all, text);
         }
         assert_eq!(parts(text, false), [(false, text)]);
-    }
-
-    #[test]
-    fn numbers_have_the_digits_that_say_something() {
-        for (x, text) in [
-            (0.0, "0"),
-            (-0.0, "0"),
-            (1.0, "1"),
-            (0.5, "0.5"),
-            (-0.12345, "-0.1235"),
-            (0.001234, "0.001234"),
-            (0.0001234, "1.234e-4"),
-            (9999.6, "10000"),
-            (12345.6, "12346"),
-            (123456.0, "1.235e5"),
-            (2.1e11, "2.1e11"),
-            (f64::INFINITY, "inf"),
-        ] {
-            assert_eq!(figure(x), text);
-        }
-        assert_eq!(digits(1.0 / 3.0, 6), "0.333333");
-        assert_eq!(vector(&[1e-12, 2.0], 2.0), "(0, 2)");
     }
 
     #[test]

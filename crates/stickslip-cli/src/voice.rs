@@ -11,6 +11,7 @@ use stickslip::newton::Strategy;
 use stickslip::run::{Watch, Work};
 
 use crate::print;
+use stickslip::number::digits;
 
 /// How long nothing may be said on a terminal, and in a file or a pipe.
 const ON_TERMINAL: Duration = Duration::from_secs(3);
@@ -288,16 +289,19 @@ impl Doing {
                 .since
                 .map_or(0.0, |s| now.duration_since(s).as_secs_f64());
             parts.push(format!(
-                "{} {from:.5e} to {to:.5e}, attempt {attempt}, {spent:.0} s in it",
-                self.step
+                "{} {from} to {to}, attempt {attempt}, {spent:.0} s in it",
+                self.step,
+                from = digits(from, 6),
+                to = digits(to, 6)
             ));
         }
         if !self.beside.is_empty() {
             parts.push(self.beside.clone());
         } else if let Some((round, iteration, residual, strategy)) = self.iteration {
             parts.push(format!(
-                "iteration {round}.{iteration} done ({}), residual {residual:.1e}",
-                strategy.name()
+                "iteration {round}.{iteration} done ({}), residual {residual}",
+                strategy.name(),
+                residual = digits(residual, 2)
             ));
         } else if self.increment.is_none() {
             parts.push(self.what.clone());

@@ -22,7 +22,7 @@
 //! - Interactions without `*SURFACE BEHAVIOR` are hard, as in Abaqus; CalculiX refuses them.
 //! - Contact pairs without `TYPE` are `SURFACE TO SURFACE`.
 //! - Linear springs on quadratic faces act at fixed points of a face, some forty; CalculiX cuts faces along each other first.
-//! - The side with the smaller cells is kept from entering the other, whichever is the slave, unless values at slave nodes are printed.
+//! - The side with the smaller cells is the secondary one, whichever is the slave, unless values at slave nodes are printed.
 //! - `*CONTACT PRINT` prints nodes, whose pressure is a mean around them, for pairs of faces too. The energy of the springs is printed as a sum only.
 //! - Plane and axisymmetric elements are computed as such; CalculiX makes solid ones of them and prints the points of those.
 //!   The strain across a plane-stress element is not printed.

@@ -15,4 +15,6 @@ pub mod contact;
 pub mod newton;
 
 // Lower rooms have one name in all crates of the library.
-use stickslip_base::{error, family, keep, linear, machine, math, owner, registry, tolerance};
+use stickslip_base::{
+    error, family, keep, linear, machine, math, number, owner, registry, tolerance,
+};

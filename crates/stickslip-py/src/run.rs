@@ -23,6 +23,7 @@ use super::array::{Array, Kept, Owner};
 use super::errors::raise;
 use super::laws::{Raised, keep};
 use super::results::no_interface;
+use stickslip::number::digits;
 
 /// How often Python is asked whether a signal has come.
 const PATIENCE: Duration = Duration::from_millis(50);
@@ -77,12 +78,12 @@ impl Observer for Messages {
             Event::Accepted(a) => (
                 DETAIL,
                 format!(
-                    "step {} increment {} to time {:.6}: {} iterations, residual {:.1e}; {} open, {} stick, {} slip",
+                    "step {} increment {} to time {:.6}: {} iterations, residual {}; {} open, {} stick, {} slip",
                     analysis.step_name(),
                     a.increment,
                     a.time,
                     a.iterations,
-                    a.residual,
+                    digits(a.residual, 2),
                     a.tally.open,
                     a.tally.stick,
                     a.tally.slip

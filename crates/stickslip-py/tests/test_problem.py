@@ -34,7 +34,7 @@ def test_all_findings_come_at_once_with_their_keys(case):
     with pytest.raises(stickslip.ProblemError) as caught:
         stickslip.Problem.from_dict(case)
     keys = {finding["key"] for finding in caught.value.findings}
-    assert keys == {"suport", "step.0.durtion"}
+    assert keys == {"suport", "step.1.durtion"}
     assert "did you mean `support`" in str(caught.value)
 
 
@@ -75,7 +75,7 @@ def test_files_that_are_not_there_are_errors_of_files(tmp_path):
 
 
 def test_values_can_be_changed_by_key(problem):
-    other = problem.with_values({"interface.press.friction.coulomb.mu": 0.1, "step.1.increments.fixed": 3})
+    other = problem.with_values({"interface.press.friction.coulomb.mu": 0.1, "step.2.increments.fixed": 3})
     assert "mu = 0.1" in other.to_toml() and "fixed = 3" in other.to_toml()
     with pytest.raises(stickslip.ProblemError):
         problem.with_values({"interface.press.friction.coulomb.mu": -1.0})

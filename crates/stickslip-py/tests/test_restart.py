@@ -126,7 +126,7 @@ def test_what_must_not_change_is_refused_by_its_key(saving, tmp_path):
     other = saving.with_values({"interface.press.friction.coulomb.mu": 0.2})
     with pytest.raises(stickslip.ProblemError, match=r"interface\.press\.friction\.coulomb\.mu"):
         stickslip.Simulation.resume(tmp_path, other)
-    longer = saving.with_values({"step.1.duration": 2})
+    longer = saving.with_values({"step.2.duration": 2})
     assert stickslip.Simulation.resume(tmp_path, longer).run().time == 3.0
     with pytest.raises(stickslip.FileError, match="no folder of results"):
         stickslip.Simulation.resume(tmp_path / "nowhere")

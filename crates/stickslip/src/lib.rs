@@ -12,7 +12,7 @@
 //! `tests/it/layers` holds the code to it.
 
 pub use stickslip_base::{
-    error, family, keep, linear, machine, math, owner, references, registry, tolerance,
+    error, family, keep, linear, machine, math, number, owner, references, registry, tolerance,
 };
 pub use stickslip_mechanics::{body, contact, friction, material, mesh, newton, shape, system};
 

@@ -25,7 +25,7 @@ pub fn measure() -> Result<(), String> {
             "fallbacks",
         ],
     );
-    let fixed = |step: usize, n: usize| format!("step.{step}.increments={{ fixed = {n} }}");
+    let fixed = |step: usize, n: usize| format!("step.{}.increments={{ fixed = {n} }}", step + 1);
     for cells in [32, 128] {
         for n in [1, 5, 20] {
             let mut settings: Vec<String> = (0..4).map(|step| fixed(step, n)).collect();

@@ -1,6 +1,7 @@
 use std::fmt;
 
 use crate::machine::{self, available_memory};
+use crate::number::digits;
 
 /// Why a linear system could not be analysed, factored or solved.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,7 +91,8 @@ impl fmt::Display for LinearError {
             ),
             LinearError::Singular { dof, ratio } => write!(
                 f,
-                "the stiffness is singular: elimination leaves {ratio:.1e} of the diagonal at dof {dof}"
+                "the stiffness is singular: elimination leaves {ratio} of the diagonal at dof {dof}",
+                ratio = digits(ratio, 2)
             ),
             LinearError::Indefinite => write!(
                 f,

@@ -2,6 +2,7 @@ use std::path::{Path, PathBuf};
 
 use stickslip::Error;
 use stickslip::io::{csv, write_atomically};
+use stickslip::number::digits;
 use stickslip_report::{Limits, plot};
 
 use super::run::{self, Manner};
@@ -9,7 +10,7 @@ use super::run::{self, Manner};
 use crate::browser;
 use crate::failure::{Failure, Outcome};
 use crate::print;
-use crate::style::{WIDTH, digits};
+use crate::style::WIDTH;
 
 /// The example `lug`, with its mesh: what it computes is checked by the tests of the library.
 const FILES: [(&str, &str); 2] = [

@@ -8,6 +8,7 @@ use stickslip::assess::{Figure, told_apart};
 use crate::failure::{Failure, Outcome};
 use crate::given;
 use crate::print;
+use stickslip::number::digits;
 
 /// Width of the printed text in characters.
 const WIDTH: usize = 100;
@@ -150,8 +151,13 @@ fn gate(summary: &Value, findings: &[Finding]) -> String {
         let number = |key: &str| figure[key].as_f64();
         let limit = number("limit").unwrap_or(f64::INFINITY);
         let both = number("value").map(|value| told_apart(value, limit));
-        let [value, limit] = both.unwrap_or(["not a number".into(), format!("{limit:.1e}")]);
-        let when = number("time").map_or(String::new(), |t| format!(", at time {t:.6e}"));
+        let [value, limit] = both.unwrap_or([
+            "not a number".into(),
+            format!("{limit}", limit = digits(limit, 2)),
+        ]);
+        let when = number("time").map_or(String::new(), |t| {
+            format!(", at time {t}", t = digits(t, 6))
+        });
         let (what, help) = Figure::meaning(name, findings).unwrap_or((
             "it is not known to this version",
             "see the version that ran it".to_string(),
@@ -274,8 +280,12 @@ fn group(severity: Severity, cause: DoctorCause, all: &[&Finding]) -> String {
     let times: Vec<f64> = all.iter().filter_map(|f| f.time).collect();
     if let (Some(first), Some(last)) = (times.first(), times.last()) {
         when = match first == last {
-            true => format!(", at time {first:.6e}"),
-            false => format!(", from time {first:.6e} to {last:.6e}"),
+            true => format!(", at time {first}", first = digits(first, 6)),
+            false => format!(
+                ", from time {first} to {last}",
+                first = digits(first, 6),
+                last = digits(last, 6)
+            ),
         };
     }
     if let Some(step) = one.step.as_ref().filter(|s| !s.is_empty()) {

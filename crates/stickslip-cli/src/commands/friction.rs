@@ -10,6 +10,7 @@ use stickslip::io::write_atomically;
 use crate::failure::{Failure, Outcome, UNSOLVED};
 use crate::given;
 use crate::print;
+use stickslip::number::digits;
 
 /// Solve friction problems alone, u = W r + q with a law of friction at every point: solver, iterations and error of each.
 ///
@@ -63,7 +64,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
             for tried in &solution.tried {
                 let (solver, iterations, error) = (&tried.solver, tried.iterations, tried.error);
                 print::out(&format!(
-                    "    {solver}: {iterations} iterations, error {error:.1e}\n"
+                    "    {solver}: {iterations} iterations, error {error}\n",
+                    error = digits(error, 2)
                 ))?;
             }
         }
@@ -109,7 +111,8 @@ fn row(file: &Path, points: usize, solution: &Solution, seconds: f64) -> String 
     let all: usize = solution.tried.iter().map(|t| t.iterations).sum();
     let error = solution.error;
     format!(
-        "| {name} | {points} | {solver} | {iterations} | {error:.1e} | {all} | {seconds:.2} |\n"
+        "| {name} | {points} | {solver} | {iterations} | {error} | {all} | {seconds:.2} |\n",
+        error = digits(error, 2)
     )
 }
 

@@ -47,10 +47,10 @@ pub fn use_threads(threads: Option<usize>, quiet: bool) {
     }
 }
 
-/// Who factors bodies.
+/// Linear solvers.
 #[derive(Debug, Default, clap::Args)]
 pub struct EngineArguments {
-    /// Who factors the bodies, instead of what the problem file says. Other keys of an engine by `--set`.
+    /// Linear solver that factors the bodies; overrides the problem file. `--set` changes its other keys.
     #[arg(long, value_name = "ENGINE", value_parser = PossibleValuesParser::new(EngineModel::KINDS))]
     engine: Option<String>,
     /// Processes over which `mumps` spreads the factor of a body.

@@ -11,6 +11,7 @@ use crate::failure::{Failure, Outcome};
 use crate::given;
 use crate::input::Input;
 use crate::voice::ProgressPrinter;
+use stickslip::number::digits;
 use stickslip::problem::changes;
 
 /// Go on with an analysis that was stopped or killed, from its last checkpoint.
@@ -25,7 +26,7 @@ pub struct Arguments {
     /// Go on from the checkpoint after N increments; the last one if not given.
     #[arg(long, value_name = "N")]
     from: Option<usize>,
-    /// Change a value that may be changed: path=value, for example step.0.duration=2.
+    /// Change a value that may be changed: path=value, for example step.1.duration=2.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
     #[command(flatten)]
@@ -67,8 +68,9 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let files = ResultFiles::resume(held, &claim, &saved)?;
     if manner.loud() {
         crate::progress::say(&format!(
-            "goes on after {} increments, at time {:.6e}",
-            saved.snapshot.increments, saved.snapshot.time
+            "goes on after {} increments, at time {}",
+            saved.snapshot.increments,
+            digits(saved.snapshot.time, 6)
         ));
     }
     go(

@@ -271,7 +271,7 @@ fn an_increment_that_fails_is_written_as_a_friction_problem_and_solved_alone() {
         );
         // A law that is no straight line is not found by one linear problem.
         let law = "interface.base.normal={ power-law = { c = 1e20, m = 2.0 } }";
-        let whole = "step.0.increments={ fixed = 1 }";
+        let whole = "step.1.increments={ fixed = 1 }";
         let dumped_in = dumped.display().to_string();
         let more = ["-o", &out, "--dump-failures", &dumped_in];
         let output = punch(

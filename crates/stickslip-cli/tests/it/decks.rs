@@ -117,8 +117,8 @@ fn what_a_deck_prints_goes_on_where_it_was() {
         deck("slide.inp").display().to_string(),
     ]);
     for value in [
-        "step.0.increments={ fixed = 4 }",
-        "step.1.increments={ fixed = 6 }",
+        "step.1.increments={ fixed = 4 }",
+        "step.2.increments={ fixed = 6 }",
         "output.checkpoint.increments=1",
         "solver.method=sparse",
     ] {

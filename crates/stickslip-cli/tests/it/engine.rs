@@ -343,7 +343,7 @@ fn wait_for(what: &str, mut there: impl FnMut() -> bool) {
 fn started(folder: &Path, spread: bool) -> (Child, u32, Vec<u32>) {
     let set = format!("solver.engine.mumps={{ ranks = 2, spread = {spread} }}");
     let mut command = run(folder, &["-o", "out", "--set", &set]);
-    command.args(["--set", "step.0.increments.fixed=40000"]);
+    command.args(["--set", "step.1.increments.fixed=40000"]);
     let child = command
         .stdout(Stdio::null())
         .stderr(Stdio::piped())

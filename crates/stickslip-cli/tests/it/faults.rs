@@ -96,7 +96,7 @@ fn endless(folder: &Path) -> Guard {
             "case.toml",
             "-q",
             "--set",
-            "step.0.increments.fixed=100000000",
+            "step.1.increments.fixed=100000000",
         ])
         .stdout(Stdio::null())
         .stderr(Stdio::null())
@@ -235,7 +235,7 @@ fn what_an_older_run_left_is_gone() {
             "-o",
             "case.out",
             "--set",
-            "step.0.increments.fixed=5",
+            "step.1.increments.fixed=5",
         ],
     );
     assert_eq!(code, Some(0), "{text}");
@@ -422,7 +422,7 @@ const LONG: [&str; 10] = [
     "case.toml",
     "-q",
     "--set",
-    "step.0.increments.fixed=300",
+    "step.1.increments.fixed=300",
     "--set",
     "output={ every = 50, checkpoint = { increments = 1 } }",
     "--set",
@@ -630,7 +630,7 @@ fn a_run_that_was_asked_to_stop_leaves_a_checkpoint_and_goes_on_with_the_same_bi
             "case.toml",
             "-q",
             "--set",
-            "step.0.increments.fixed=600",
+            "step.1.increments.fixed=600",
         ];
         let more = ["--set", output, "--set", &method, "-o", out];
         words.iter().chain(&more).map(|w| w.to_string()).collect()
@@ -684,7 +684,7 @@ fn a_folder_is_read_while_it_grows_and_nobody_else_goes_on_in_it() {
     let folder = place("growing");
     let child = support::command(&folder)
         .args(["run", "case.toml", "-q", "--set"])
-        .arg("step.0.increments.fixed=100000000")
+        .arg("step.1.increments.fixed=100000000")
         .args(["--set", "solver.method=sparse", "--set"])
         .arg("output={ every = 1, checkpoint = { increments = 1 } }")
         .stdout(Stdio::null())
@@ -797,7 +797,7 @@ fn a_full_disk_is_told_wherever_it_happens() {
     // The history: its rows are whole, and it is the error that is told, whatever cannot be written after it.
     let mut limited = support::command(&folder);
     limited.args(["run", "case.toml", "-q", "--set", "output.every=100000"]);
-    limited.args(["--set", "step.0.increments.fixed=1000", "-o", "long"]);
+    limited.args(["--set", "step.1.increments.fixed=1000", "-o", "long"]);
     let (code, text) = with_limit(&mut limited, libc::RLIMIT_FSIZE, 12_000);
     assert_eq!(code, Some(1), "{text}");
     let first = text.lines().next().unwrap_or_default();

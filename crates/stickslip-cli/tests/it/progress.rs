@@ -112,7 +112,7 @@ fn what_the_solver_does_is_for_who_asks() {
 
 #[test]
 fn a_pipe_gets_fewer_lines_after_a_while() {
-    let set = ["--set", "step.0.increments.fixed=60"];
+    let set = ["--set", "step.1.increments.fixed=60"];
     let said = said("piped", &set, &[]);
     let increments = said.lines().filter(|l| l.starts_with("press")).count();
     assert!((40..60).contains(&increments), "{said}");
@@ -189,7 +189,7 @@ fn interrupted(signal: &str) {
             "case.toml",
             "--json",
             "--set",
-            "step.0.increments.fixed=100000000",
+            "step.1.increments.fixed=100000000",
         ])
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())

@@ -327,7 +327,7 @@ fn ranges_reach_the_problem_and_axes_run_side_by_side() {
             "--set",
             "support.top.y=-1e-5..-3e-5:3",
             "--set",
-            "step.0.increments.fixed=1..3:3",
+            "step.1.increments.fixed=1..3:3",
             "--set",
             "body.block.generate.rectangle.cells=[4,2],[2,1],[6,3]",
             "-q",

@@ -134,7 +134,7 @@ fn of_pair(deck: &Deck, bodies: &Bodies, pair: &Pair) -> Vec<(String, &'static s
     let bodies_differ = if bodies.mesh().dim == 3 { 2.25 } else { 1.5 };
     if pair.by_nodes && size_s > bodies_differ * size_m {
         out.push((
-            format!("the slave surface {} is coarser than the master {}: nodes of the master can enter it unseen", pair.slave, pair.master),
+            format!("the slave surface {} is coarser than the master {}: penetration by nodes of the master is not detected", pair.slave, pair.master),
             "exchange the two, or use TYPE=SURFACE TO SURFACE",
         ));
     }

@@ -134,7 +134,7 @@ fn quality(job: &mut Job) {
     let limits = &mut job.problem.quality;
     if stick || soft {
         // The slip and the stretch of springs that the deck gives are no errors of the solution.
-        limits.false_slip = NO_LIMIT;
+        limits.elastic_slip = NO_LIMIT;
     }
     if soft {
         limits.penetration_to_approach = NO_LIMIT;

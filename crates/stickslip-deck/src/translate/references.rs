@@ -15,6 +15,7 @@ use super::sets::Sets;
 use super::supports::{self, COMPONENTS};
 use crate::card::Place;
 use crate::deck::{Action, Deck, NodeCoupling, SurfaceParts, Tied, Way};
+use stickslip::number::figure;
 
 /// Names the nodes that are reference points.
 pub(super) fn find(job: &mut Job, bodies: &mut Bodies) {
@@ -233,8 +234,9 @@ fn warn_of_arm(job: &mut Job, bodies: &Bodies, coupling: &NodeCoupling) {
     let arm = norm(sum) / total;
     if total > 0.0 && arm > 1e-3 * size {
         let message = format!(
-            "coupling {}: the reference node lies {arm:.3e} from the centre of its nodes: a force there has that arm, as in Abaqus; in CalculiX the place of the node does not matter",
-            coupling.name
+            "coupling {}: the reference node lies {arm} from the centre of its nodes: a force there has that arm, as in Abaqus; in CalculiX the place of the node does not matter",
+            coupling.name,
+            arm = figure(arm)
         );
         let help = "for what CalculiX does, put the node where the centre is";
         job.warn(coupling.place, message, help);

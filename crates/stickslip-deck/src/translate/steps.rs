@@ -25,7 +25,7 @@ pub(super) fn write(job: &mut Job) {
         return;
     }
     for (i, step) in deck.steps.iter().enumerate() {
-        job.places.push((format!("step.{i}"), step.place));
+        job.places.push((format!("step.{}", i + 1), step.place));
         acting::<Support>(job, i);
         acting::<Load>(job, i);
         acting::<Temperature>(job, i);

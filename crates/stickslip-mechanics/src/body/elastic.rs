@@ -16,6 +16,7 @@ use crate::error::Diagnostic;
 use crate::linear::{BlockCsr, Digest};
 use crate::material::{Dilation, Stiffness, constrained_modulus, plane_stress};
 use crate::mesh::{Block, Mesh};
+use crate::number::figure;
 use crate::system::Dofs;
 
 /// A block of cells and what it is made of.
@@ -329,9 +330,10 @@ fn check_cells<const N: usize>(
         Some((cell, jacobian)) => Err(Diagnostic::new(
             "",
             format!(
-                "cell {} ({}) is inverted or collapsed: its Jacobian is {jacobian:.3e}",
+                "cell {} ({}) is inverted or collapsed: its Jacobian is {jacobian}",
                 block.cell_ids.get(cell).copied().unwrap_or(cell as u64),
-                block.kind.name()
+                block.kind.name(),
+                jacobian = figure(jacobian)
             ),
         )
         .help("check the coordinates of its nodes and their order")),

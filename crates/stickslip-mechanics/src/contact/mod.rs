@@ -26,9 +26,9 @@
 //! - *Where it lies.* A gap is a small difference of coordinates. An interface counts them, those of its obstacle too, from its `origin`: the origin of space, or a round
 //!   place near the middle of a model that lies more than 16 times its size away. Places and moments that leave the interface are those of space.
 //! - *Sides.* Which side has the points follows from the meshes: where the cells of the secondary are larger than those of the primary by more than a quarter, `problem/build` makes the
-//!   interface the other way round (`InterfaceDefinition::exchanged`), since between points that are far apart a finer surface enters unseen. Inside, secondary is what has the points;
+//!   interface the other way round (`InterfaceDefinition::exchanged`), since between points that are far apart penetration of a finer surface is not detected. Inside, secondary is what has the points;
 //!   what is reported (`look/`) is of the sides as the problem names them.
-//! - *Between points* nothing is checked while the solution is sought. `look/between.rs` measures afterwards, from the geometry alone, how far the surfaces enter each other
+//! - *Between points* nothing is checked while the solution is sought. `look/between.rs` measures afterwards, from the geometry alone, how far the surfaces penetrate
 //!   or stand apart there, for the quality gate.
 //! - *Mortar.* `mortar/` cuts faces of the secondary and facets of the primary along each other in a plane, and integrates gap and shape functions over the
 //!   pieces with dual functions as weights. The gap is measured along normals of the reference that turn with the secondary as a whole: a pair that turns as one keeps

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::stiffness::Stiffness;
 use crate::math::symmetric_eigen;
+use crate::number::digits;
 use crate::tolerance::{NEGLIGIBLE, ROUNDING};
 
 /// A material that cannot be used.
@@ -49,7 +50,8 @@ impl fmt::Display for MaterialError {
         if let Some(value) = self.smallest_eigenvalue {
             write!(
                 f,
-                "; the smallest eigenvalue of the stiffness is {value:.6e}"
+                "; the smallest eigenvalue of the stiffness is {value}",
+                value = digits(value, 5)
             )?;
         }
         if let Some(help) = &self.help {

@@ -5,6 +5,7 @@ use super::{CellRef, Mesh};
 use crate::error::MeshError;
 use crate::math::distance;
 use crate::mesh::geometry;
+use crate::number::figure;
 
 /// A Jacobian below this part of that of a right-angled cell is collapsed. Tuned.
 const COLLAPSED: f64 = 1e-8;
@@ -209,8 +210,9 @@ fn check_jacobian(mesh: &Mesh, cell: CellRef) -> Result<(), MeshError> {
         )
     };
     Err(MeshError::new(format!(
-        "cell {} ({kind}) has a {what} Jacobian: {worst:.3e} of that of a right-angled cell with its edges",
-        mesh.cell_id(cell)
+        "cell {} ({kind}) has a {what} Jacobian: {worst} of that of a right-angled cell with its edges",
+        mesh.cell_id(cell),
+        worst = figure(worst),
     ))
     .help(format!("{help}; repair the mesh there")))
 }

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::{CellRef, FacetRef, Mesh};
 use crate::error::MeshError;
 use crate::math::{Vec3, add, distance, dot, scale, sub};
+use crate::number::digits;
 use crate::tolerance::SAME;
 
 /// A cut through a mesh.
@@ -52,7 +53,9 @@ pub fn faces_along(
     if found.is_empty() {
         return Err(
             MeshError::new("the plane does not run between cells").help(format!(
-                "along the normal the centres of cells lie from {low:.4e} to {high:.4e} of the point: move it between two layers of them"
+                "along the normal the centres of cells lie from {low} to {high} of the point: move it between two layers of them",
+                low = digits(low, 5),
+                high = digits(high, 5),
             )),
         );
     }

@@ -5,6 +5,7 @@ use super::balance::Balance;
 use super::progress::{Converged, Progress};
 use super::step_length::{self, StepControl};
 use super::strategy::Strategy;
+use crate::number::digits;
 use crate::system::{Assembler, Cause, StepFailure};
 
 /// Iterations after which a residual that has not fallen counts as stalled.
@@ -203,7 +204,7 @@ fn not_converged(attempt: &Attempt, residuals: &[f64]) -> StepFailure {
     let last: Vec<String> = residuals
         .iter()
         .skip(residuals.len().saturating_sub(QUOTED))
-        .map(|r| format!("{r:.1e}"))
+        .map(|r| format!("{r}", r = digits(r, 2)))
         .collect();
     let sentence = format!(
         "no equilibrium in {} iterations; out-of-balance force relative to the forces in play: … {}",

@@ -2,6 +2,7 @@
 
 use super::attempt::Attempt;
 use super::progress::Converged;
+use crate::number::digits;
 use crate::system::{Augmentation, Cause, Stage, StepFailure};
 
 /// Most multiplier updates in one increment.
@@ -30,7 +31,8 @@ pub(super) fn rounds(
         attempt.statistics.augmentations += 1;
         if round > most {
             let sentence = format!(
-                "the multipliers did not settle in {most} updates; the gap error is still {worst:.1e} times its limit"
+                "the multipliers did not settle in {most} updates; the gap error is still {worst} times its limit",
+                worst = digits(worst, 2)
             );
             return Err(attempt
                 .failure(Cause::NotConverged, sentence)

@@ -2,9 +2,10 @@
 
 use serde_json::Value;
 use stickslip::assess::doctor::Finding;
+use stickslip::number::figure;
 
 use super::escape::text;
-use super::facts::{count, mark, number, table};
+use super::facts::{count, mark, table};
 use crate::results::Results;
 
 /// Iterations, and what went wrong on the way.
@@ -35,7 +36,7 @@ pub fn section(results: &Results) -> String {
     out += &listed("Cut-backs", &s["cutback-reasons"], false);
     let fallbacks = s["fallbacks"].as_array().map_or(&[][..], Vec::as_slice);
     if !fallbacks.is_empty() {
-        let shown = |v: &Value| v.as_f64().map_or_else(|| "-".into(), number);
+        let shown = |v: &Value| v.as_f64().map_or_else(|| "-".into(), figure);
         let rows: Vec<Vec<String>> = fallbacks
             .iter()
             .map(|f| {
@@ -94,8 +95,8 @@ fn finding(value: &Value) -> String {
     match serde_json::from_value::<Finding>(value.clone()) {
         Ok(f) => {
             let when = match (&f.step, f.time) {
-                (Some(step), Some(t)) => format!("step {}, time {}: ", text(step), number(t)),
-                (None, Some(t)) => format!("time {}: ", number(t)),
+                (Some(step), Some(t)) => format!("step {}, time {}: ", text(step), figure(t)),
+                (None, Some(t)) => format!("time {}: ", figure(t)),
                 _ => String::new(),
             };
             format!("{when}<pre>{}</pre>", text(&f.to_string()))

@@ -1,7 +1,8 @@
-//! The energy ledger.
+//! The energy balance.
 
-use super::facts::{mark, number, table};
+use super::facts::{mark, table};
 use crate::results::Results;
+use stickslip::number::figure;
 
 /// The ledger at the end, and the plots of its course.
 pub fn section(results: &Results) -> String {
@@ -45,20 +46,20 @@ pub fn section(results: &Results) -> String {
             let value = e[*key].as_f64().unwrap_or(0.0);
             sum += value;
             if value != 0.0 {
-                rows.push(vec![words.to_string(), group.to_string(), number(value)]);
+                rows.push(vec![words.to_string(), group.to_string(), figure(value)]);
             }
         }
         rows.push(vec![
             format!("<b>{group} in all</b>"),
             String::new(),
-            format!("<b>{}</b>", number(sum)),
+            format!("<b>{}</b>", figure(sum)),
         ]);
     }
     let residual = e["residual"].as_f64().unwrap_or(0.0);
     rows.push(vec![
         "<b>left of the balance</b>".into(),
         String::new(),
-        format!("<b>{}</b>", number(residual)),
+        format!("<b>{}</b>", figure(residual)),
     ]);
     out += &table(
         "plain",
@@ -73,9 +74,9 @@ pub fn section(results: &Results) -> String {
             _ => mark("warn", "beyond its limit"),
         };
         out += &format!(
-            "<p>The largest residual of the balance is {} of the energies in play; the limit is {}. {verdict}</p>\n",
-            number(residual),
-            number(limit)
+            "<p>The largest error of the balance is {} of the total energy; the limit is {}. {verdict}</p>\n",
+            figure(residual),
+            figure(limit)
         );
     }
     out

@@ -5,32 +5,6 @@ use serde_json::Value;
 use super::escape::text;
 use crate::results::Results;
 
-/// A number in few digits.
-pub fn number(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 {
-        "0".into()
-    } else if !value.is_finite() {
-        value.to_string()
-    } else if (1e-3..1e6).contains(&size) {
-        let digits = (3 - size.log10().floor() as i32).clamp(0, 6) as usize;
-        let shown = format!("{value:.digits$}");
-        match shown.contains('.') {
-            true => shown.trim_end_matches('0').trim_end_matches('.').into(),
-            false => shown,
-        }
-    } else {
-        let text = format!("{value:.3e}");
-        match text.split_once('e') {
-            Some((mantissa, exponent)) => {
-                let mantissa = mantissa.trim_end_matches('0').trim_end_matches('.');
-                format!("{mantissa}e{exponent}")
-            }
-            None => text,
-        }
-    }
-}
-
 /// A whole number.
 pub fn count(value: &Value) -> String {
     value.as_u64().map_or_else(|| "-".into(), |n| n.to_string())
@@ -145,27 +119,4 @@ pub fn footer(results: &Results) -> String {
         text(version),
         env!("CARGO_PKG_VERSION")
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::number;
-
-    #[test]
-    fn numbers_are_short() {
-        for (value, text) in [
-            (0.0, "0"),
-            (1.0, "1"),
-            (-0.25, "-0.25"),
-            (1234.56, "1235"),
-            (123_456.0, "123456"),
-            (100.0, "100"),
-            (0.01, "0.01"),
-            (2.5e-5, "2.5e-5"),
-            (7.654e9, "7.654e9"),
-            (f64::NAN, "NaN"),
-        ] {
-            assert_eq!(number(value), text);
-        }
-    }
 }

@@ -1,7 +1,8 @@
 //! Where the time went.
 
-use super::facts::{number, seconds};
+use super::facts::seconds;
 use crate::results::Results;
+use stickslip::number::figure;
 
 /// Bars of the phases of the run.
 pub fn section(results: &Results) -> String {
@@ -51,7 +52,7 @@ pub fn section(results: &Results) -> String {
     if let Some(times) = s["relative-to-linear"].as_f64().filter(|t| *t > 0.0) {
         facts.push(format!(
             "{} times one linear solution of the same bodies",
-            number(times)
+            figure(times)
         ));
     }
     out += &format!("<p class=\"quiet\">{}</p>\n", facts.join(" · "));

@@ -4,8 +4,8 @@ use serde_json::Value as Json;
 use toml::{Table, Value};
 
 use super::escape::text;
-use super::facts::number;
 use crate::results::Results;
+use stickslip::number::figure;
 
 /// The tables that are shown, in this order, with what they are.
 const TABLES: &[(&str, &str)] = &[
@@ -54,7 +54,7 @@ pub fn section(results: &Results) -> String {
         let name = name.map_or_else(|| (i + 1).to_string(), str::to_string);
         out += &card(
             &schema,
-            &["step", "0"],
+            &["step", "1"],
             &format!("Step {}", i + 1),
             &name,
             step,
@@ -220,7 +220,7 @@ fn unit(words: &str) -> String {
 fn shown(value: &Value) -> String {
     match value {
         Value::String(s) => s.clone(),
-        Value::Float(f) => number(*f),
+        Value::Float(f) => figure(*f),
         Value::Array(list) => {
             let mut items: Vec<String> = list.iter().take(LONG).map(shown).collect();
             if list.len() > LONG {
@@ -278,7 +278,7 @@ mod tests {
         assert_eq!(find("material.x.isotropic.young").as_deref(), Some("Pa"));
         assert_eq!(find("interface.x.friction.coulomb.mu").as_deref(), Some(""));
         assert!(find("interface.x.friction.coulomb.no").is_none());
-        assert!(find("step.0.duration").is_some());
+        assert!(find("step.1.duration").is_some());
     }
 
     #[test]

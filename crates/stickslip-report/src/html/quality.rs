@@ -1,9 +1,10 @@
 //! The quality gate.
 
 use stickslip::assess::told_apart;
+use stickslip::number::figure;
 
 use super::escape::text;
-use super::facts::{mark, number, table};
+use super::facts::{mark, table};
 use crate::results::Results;
 
 /// The figures of the quality gate beside their limits.
@@ -34,7 +35,7 @@ pub fn section(results: &Results) -> String {
                     if !met { "bad" } else if s > 0.5 { "warn" } else { "good" }
                 )
             });
-            let shown = |v: Option<f64>| v.map_or_else(|| "-".into(), number);
+            let shown = |v: Option<f64>| v.map_or_else(|| "-".into(), figure);
             let mut compared = [shown(value), shown(limit)];
             // A value that is just above its limit needs more digits.
             if let (false, Some(v), Some(l)) = (met, value, limit)

@@ -11,6 +11,7 @@ use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::model::rigid::free_bodies;
+use crate::number::digits;
 use crate::system::{Stage, State, StepFailure};
 
 /// A rigid-body mode that neither supports nor springs hold.
@@ -259,7 +260,7 @@ impl fmt::Display for CheckReport {
                 b.high[2]
             )?;
             if let Some(mass) = b.rigid {
-                writeln!(f, "    rigid, of mass {mass:.6e}")?;
+                writeln!(f, "    rigid, of mass {mass}", mass = digits(mass, 5))?;
             }
             writeln!(f, "    sets: {}", b.sets.join(", "))?;
         }
@@ -267,8 +268,11 @@ impl fmt::Display for CheckReport {
         for i in &self.interfaces {
             writeln!(
                 f,
-                "  {}: {} points, area {:.6e}, {}",
-                i.name, i.points, i.area, i.laws
+                "  {}: {} points, area {}, {}",
+                i.name,
+                i.points,
+                digits(i.area, 5),
+                i.laws
             )?;
             if i.paired == 0 {
                 writeln!(
@@ -278,8 +282,13 @@ impl fmt::Display for CheckReport {
             } else {
                 writeln!(
                     f,
-                    "    gaps {:.6e} to {:.6e}, median {:.6e}, {} of {} points have something opposite, {} overlap",
-                    i.smallest, i.largest, i.median, i.paired, i.points, i.overlapping
+                    "    gaps {} to {}, median {}, {} of {} points have something opposite, {} overlap",
+                    digits(i.smallest, 5),
+                    digits(i.largest, 5),
+                    digits(i.median, 5),
+                    i.paired,
+                    i.points,
+                    i.overlapping
                 )?;
                 if let Some([x, y, z]) = i.nearest_at {
                     let what = match i.smallest < 0.0 {
@@ -290,7 +299,13 @@ impl fmt::Display for CheckReport {
                         Some(id) => format!("node {id} "),
                         None => String::new(),
                     };
-                    writeln!(f, "    {what} at {node}({x:.6e}, {y:.6e}, {z:.6e})")?;
+                    writeln!(
+                        f,
+                        "    {what} at {node}({x}, {y}, {z})",
+                        x = digits(x, 5),
+                        y = digits(y, 5),
+                        z = digits(z, 5)
+                    )?;
                 }
             }
         }

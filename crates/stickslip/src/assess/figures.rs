@@ -47,15 +47,15 @@ pub(crate) fn advice(help: &str, findings: &[Finding]) -> String {
 /// All figures.
 pub(crate) static ALL: [&Kind; 25] = [
     &PENETRATION_TO_SIZE,
-    &UNSEEN_TO_SIZE,
-    &UNSEEN_TO_APPROACH,
+    &UNDETECTED_PENETRATION,
+    &UNDETECTED_APPROACH,
     &TIE_OPENING,
     &PENETRATION_TO_APPROACH,
-    &FALSE_SLIP,
+    &ELASTIC_SLIP,
     &COMPLEMENTARITY,
     &OSCILLATION,
     &EXPLICIT_WEAR,
-    &EXCESS_SHEAR,
+    &CONE_VIOLATION,
     &FRICTION_LAW,
     &ACTION_REACTION,
     &MOMENT,
@@ -63,7 +63,7 @@ pub(crate) static ALL: [&Kind; 25] = [
     &ROTATION,
     &ROTATION_TO_APPROACH,
     &LOCAL_ROTATION,
-    &FALSE_SHEAR,
+    &OUTDATED_NORMALS,
     &STRAIN,
     &PRESTRESS,
     &DISPLACEMENT,
@@ -83,7 +83,7 @@ pub(crate) static PENETRATION_TO_SIZE: Kind = Kind {
     name: "penetration-to-size",
     own: 0.0,
     model: 0.0,
-    what: "surfaces penetrate by this part of the cell beneath",
+    what: "penetration of the surfaces over the size of the cell beneath",
     help: "raise the `factor` of the enforcement, or use enforcement.augmented-lagrangian",
 };
 
@@ -92,15 +92,15 @@ pub(crate) static PENETRATION_TO_APPROACH: Kind = Kind {
     name: "penetration-to-approach",
     own: LEAST_FORCE * LEAST_FORCE,
     model: TRACE_OF_FORCE * TRACE_OF_FORCE,
-    what: "surfaces penetrate by this part of the elastic approach, and forces are wrong by about as much",
+    what: "penetration over the elastic approach; forces have about the same relative error",
     help: "raise the `factor` of the enforcement, or use enforcement.augmented-lagrangian",
 };
 
-pub(crate) static FALSE_SLIP: Kind = Kind {
-    name: "false-slip",
+pub(crate) static ELASTIC_SLIP: Kind = Kind {
+    name: "elastic-slip",
     own: LEAST_FORCE * LEAST_FORCE,
     model: TRACE_OF_FORCE * TRACE_OF_FORCE,
-    what: "points that stick have slipped by this part of the elastic approach",
+    what: "slip of sticking points over the elastic approach",
     help: "raise the `factor` or `tangential-factor` of the enforcement, or use enforcement.augmented-lagrangian",
 };
 
@@ -108,24 +108,24 @@ pub(crate) static COMPLEMENTARITY: Kind = Kind {
     name: "complementarity",
     own: LEAST_FORCE,
     model: TRACE_OF_FORCE,
-    what: "pressure bridges an open gap of this part of the cells",
+    what: "pressure at open points: gap over the size of the cell",
     help: "lower `solver.tolerance` or the `error` of the enforcement",
 };
 
 // Of lengths. In every analysis the largest of the run are compared: while forces are small so is the contact, and any mesh is too coarse for it.
-pub(crate) static UNSEEN_TO_SIZE: Kind = Kind {
-    name: "unseen-to-size",
+pub(crate) static UNDETECTED_PENETRATION: Kind = Kind {
+    name: "undetected-penetration",
     own: 0.0,
     model: 0.0,
-    what: "between contact points the surfaces enter each other by this part of the cell beneath",
+    what: "penetration between contact points over the size of the cell beneath",
     help: "choose the finer surface as secondary, or refine the secondary where it is touched",
 };
 
-pub(crate) static UNSEEN_TO_APPROACH: Kind = Kind {
-    name: "unseen-to-approach",
+pub(crate) static UNDETECTED_APPROACH: Kind = Kind {
+    name: "undetected-approach",
     own: 0.0,
     model: 0.0,
-    what: "contact points miss this part of the way by which the bodies approach, and forces are wrong by about as much",
+    what: "penetration between contact points over the elastic approach; forces have about the same relative error",
     help: "choose the finer surface as secondary, or refine both where they touch",
 };
 
@@ -133,7 +133,7 @@ pub(crate) static TIE_OPENING: Kind = Kind {
     name: "tie-opening",
     own: 0.0,
     model: 0.0,
-    what: "between the points or means that a tie holds, its surfaces come apart or slide by this part of what the bodies do",
+    what: "tied surfaces open or slide between their points: relative to the deformation of the bodies",
     help: "choose as secondary the finer surface, and one that no support holds at its edge, or refine the secondary",
 };
 
@@ -141,7 +141,7 @@ pub(crate) static OSCILLATION: Kind = Kind {
     name: "oscillation",
     own: LEAST_FORCE,
     model: TRACE_OF_FORCE,
-    what: "this part of the pressure goes up and down from point to point",
+    what: "part of the pressure that oscillates from point to point",
     help: "choose the finer or softer surface as secondary, or match the meshes; forces may be right where pressures are not",
 };
 
@@ -150,15 +150,15 @@ pub(crate) static EXPLICIT_WEAR: Kind = Kind {
     name: "explicit-wear",
     own: 0.0,
     model: 0.0,
-    what: "an increment slides by this multiple of the way up to which explicit wear is stable, and beyond that pressure and depth swing from point to point",
+    what: "slip of an increment over the stability limit of explicit wear; above 1 pressure and depth oscillate from point to point",
     help: "`wear-feedback = \"implicit\"`, the default, has no such limit; otherwise shorter increments, or jumps over fewer cycles",
 };
 
-pub(crate) static EXCESS_SHEAR: Kind = Kind {
-    name: "excess-shear",
+pub(crate) static CONE_VIOLATION: Kind = Kind {
+    name: "cone-violation",
     own: LEAST_FORCE,
     model: TRACE_OF_FORCE,
-    what: "the shear traction exceeds the limit of friction by this part",
+    what: "the shear traction violates the friction cone by this part",
     help: "lower `solver.tolerance`",
 };
 
@@ -191,7 +191,7 @@ pub(crate) static EQUILIBRIUM: Kind = Kind {
     name: "equilibrium",
     own: LEAST_FORCE,
     model: LEAST_FORCE,
-    what: "forces and moments on the body are out of balance by this part",
+    what: "relative out-of-balance forces and moments of the body",
     help: "lower `solver.tolerance`",
 };
 
@@ -200,7 +200,7 @@ pub(crate) static ROTATION: Kind = Kind {
     name: "rotation",
     own: 0.0,
     model: 0.0,
-    what: "it has turned by this angle in radians, and strains and rotations are taken as small",
+    what: "rotation of the body in radians; strains and rotations are assumed small",
     help: "look for a support that is missing, a load or a stiffness in the wrong unit, or make the body stiffer; a body that is meant to turn far turns with a reference point (`body.NAME.rotation.with`); a face that is meant to turn far without one is moved by supports of its points",
 };
 
@@ -209,7 +209,7 @@ pub(crate) static ROTATION_TO_APPROACH: Kind = Kind {
     name: "rotation-to-approach",
     own: LEAST_FORCE * LEAST_FORCE,
     model: TRACE_OF_FORCE * TRACE_OF_FORCE,
-    what: "its bodies have turned and rotations are taken as small: half the square of the angle times the distance from where a body is held is missing in the gap, this part of the elastic approach, and pressures are wrong by about as much",
+    what: "rotations are assumed small, and the second-order term they neglect in the gap is this part of the elastic approach; pressures have about the same relative error",
     help: "let the body turn in a frame: `body.NAME.rotation.with` of the reference point that turns it, `rotation = \"large\"` of what turns freely, `rotation = \"corotational\"` of what bends",
 };
 
@@ -217,7 +217,7 @@ pub(crate) static LOCAL_ROTATION: Kind = Kind {
     name: "local-rotation",
     own: 0.0,
     model: 0.0,
-    what: "a cell has turned by this angle in radians, and strains and rotations are taken as small",
+    what: "rotation of a cell in radians; strains and rotations are assumed small",
     help: "look for cells that hang together at a node or an edge only, or for a load or a stiffness in the wrong unit; in a body with `rotation = \"corotational\"`, where a part of a cell has turned in the frame of the cell, take smaller cells along what bends",
 };
 
@@ -225,7 +225,7 @@ pub(crate) static STRAIN: Kind = Kind {
     name: "strain",
     own: 0.0,
     model: 0.0,
-    what: "where its energy is, the body is strained by this much, and forces are wrong by about that part: the theory is one of small strains",
+    what: "strain of the body, weighted by its energy; the theory assumes small strains, and forces have about that relative error",
     help: "look for a load or a stiffness in the wrong unit, or take another program for what strains as much as rubber does",
 };
 
@@ -234,7 +234,7 @@ pub(crate) static PRESTRESS: Kind = Kind {
     name: "prestress",
     own: 0.0,
     model: 0.0,
-    what: "the stress that the vibrations begin from would change a frequency by this part, and stress does not stiffen bodies here",
+    what: "relative change of a frequency by the stress at the start, which is neglected",
     help: "take the frequencies for those of the body without stress, or another program for bodies that are pressed or drawn so far that it shows",
 };
 
@@ -242,7 +242,7 @@ pub(crate) static MODE_RESIDUAL: Kind = Kind {
     name: "mode-residual",
     own: 0.0,
     model: 0.0,
-    what: "the equations of motion are left open by this part in the worst mode or vibration",
+    what: "relative residual of the equations of motion in the worst mode or vibration",
     help: "ask for fewer modes, or support unconstrained bodies; of vibrations, take more of the modes that they are made of",
 };
 
@@ -250,15 +250,15 @@ pub(crate) static DISPLACEMENT: Kind = Kind {
     name: "displacement",
     own: 1.0,
     model: 0.0,
-    what: "the body has moved by this multiple of the size of the model and the way that is prescribed",
+    what: "displacement of the body over the size of the model plus the prescribed displacement",
     help: "it is unconstrained: support it, lower what drives it, or look for a load in the wrong unit; if it is meant to go there, raise `quality.displacement`",
 };
 
-pub(crate) static FALSE_SHEAR: Kind = Kind {
-    name: "false-shear",
+pub(crate) static OUTDATED_NORMALS: Kind = Kind {
+    name: "outdated-normals",
     own: LEAST_FORCE,
     model: TRACE_OF_FORCE,
-    what: "the surfaces have turned and `small-sliding` keeps the normals of the start: pressure has this part of the limit of friction along them, of itself where there is no friction",
+    what: "`small-sliding` keeps the initial normals while surfaces rotate: tangential component of the pressure over the friction limit (over the pressure without friction)",
     help: "leave out `kinematics.small-sliding` of the interface: the default follows the surfaces",
 };
 
@@ -267,7 +267,7 @@ pub(crate) static EXPLICIT_OPENING: Kind = Kind {
     name: "explicit-opening",
     own: LEAST_FORCE * LEAST_FORCE,
     model: TRACE_OF_FORCE * TRACE_OF_FORCE,
-    what: "in an explicit step springs stand for rigid stops and for ties by a penalty, and they give way by this part of what the bodies do",
+    what: "in explicit steps stops and ties by a penalty are springs: their deformation over that of the bodies",
     help: "refine the cells beside it, whose mass and size bound these springs, tie by multipliers, which explicit steps hold exactly, or take an implicit scheme",
 };
 
@@ -275,7 +275,7 @@ pub(crate) static EXPLICIT_PENETRATION: Kind = Kind {
     name: "explicit-penetration",
     own: LEAST_FORCE * LEAST_FORCE,
     model: TRACE_OF_FORCE * TRACE_OF_FORCE,
-    what: "in an explicit step springs as stiff as the cells beneath keep surfaces apart and in stick, and they give way by this part of what the bodies do",
+    what: "in explicit steps contact and stick are springs as stiff as the cells beneath: their deformation over that of the bodies",
     help: "refine the cells at the surfaces, whose mass and size bound these springs, give the interface a law that is compliant, or take an implicit scheme",
 };
 
@@ -283,7 +283,7 @@ pub(crate) static SCHEME_DISSIPATION: Kind = Kind {
     name: "scheme-dissipation",
     own: 1.0,
     model: 1.0,
-    what: "the scheme that integrates the motion has dissipated this part of the energy in play, and what moves is slower by half of it",
+    what: "numerical dissipation of the time integration over the total energy; velocities are too low by half of it",
     help: "take smaller increments, or a scheme that dissipates less: `dynamic.contact-at = \"stage\"` where laws are compliant, `rho` nearer to 1; what the scheme is meant to damp is the noise of a mesh, which has little energy",
 };
 
@@ -291,7 +291,7 @@ pub(crate) static ENERGY: Kind = Kind {
     name: "energy",
     own: 1.0,
     model: 1.0,
-    what: "the balance of energies is open by this part",
+    what: "relative error of the energy balance",
     help: "take smaller increments, or add damping where bodies bounce; in quasi-static steps forces are not made of it, but where smaller increments do not close it something acts along another direction than gaps have: look at edges that press, at bodies that turn by small rotations, and at `small-sliding`",
 };
 

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::doctor::Finding;
 use super::figures::{self, Kind, Track};
 use crate::model::limits::GateMode;
+use crate::number::digits;
 
 /// The outcome of the quality gate.
 #[derive(Debug, Clone, Default, Serialize, crate::keep::Keep)]
@@ -61,9 +62,9 @@ impl Figure {
     pub fn sentence(&self, findings: &[Finding]) -> String {
         let (what, help) = (self.kind.what, figures::advice(self.kind.help, findings));
         format!(
-            "{} (at time {:.4e}): {what}; {help}",
+            "{} (at time {}): {what}; {help}",
             self.brief(),
-            self.time
+            digits(self.time, 5)
         )
     }
 }

@@ -17,6 +17,7 @@ use crate::model::rigid::drivers::named;
 use crate::model::rigid::held::{NO_PART, Unheld};
 use crate::model::rigid::modes::{Mode, modes};
 use crate::model::rigid::{drivers, held};
+use crate::number::digits;
 
 /// Displacements and gaps over the size of the smallest body up to which points are where they were meshed. Tuned.
 const UNMOVED: f64 = 1e-3;
@@ -173,7 +174,7 @@ fn say_unbalanced(
         None => "no friction would hold it".to_string(),
     };
     let when = match first > view.frame.state.t {
-        true => format!(" from {first:.6e} on"),
+        true => format!(" from {first} on", first = digits(first, 6)),
         false => String::new(),
     };
     let message = format!(

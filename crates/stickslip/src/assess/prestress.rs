@@ -5,6 +5,7 @@ use super::gate::Gate;
 use super::view::View;
 use crate::body::{prestress, recover};
 use crate::model::limits::{GateMode, Limits};
+use crate::number::digits;
 
 /// A mode as it was found.
 pub(crate) struct Shape<'a> {
@@ -68,14 +69,16 @@ pub(crate) fn judge_prestress(
     let found = modes[k].frequency;
     notes.push(match change > -1.0 {
         true => format!(
-            "mode {}: found at {found:.4e} without the stress that it begins from; with it about {:.4e}, {:+.1} %",
+            "mode {}: found at {found} without the stress that it begins from; with it about {}, {:+.1} %",
             k + 1,
-            (1.0 + change) * found,
-            100.0 * change
+            digits((1.0 + change) * found, 5),
+            100.0 * change,
+            found = digits(found, 5),
         ),
         false => format!(
-            "mode {}: found at {found:.4e} without the stress that it begins from; with it the body would buckle",
-            k + 1
+            "mode {}: found at {found} without the stress that it begins from; with it the body would buckle",
+            k + 1,
+            found = digits(found, 5),
         ),
     });
 }

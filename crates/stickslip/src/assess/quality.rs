@@ -4,10 +4,10 @@ use serde::Serialize;
 
 use super::doctor::{Peak, Watch, longest_way};
 use super::figures::{
-    self, ACTION_REACTION, COMPLEMENTARITY, ENERGY, EQUILIBRIUM, EXCESS_SHEAR, EXPLICIT_OPENING,
-    EXPLICIT_PENETRATION, EXPLICIT_WEAR, FALSE_SHEAR, FALSE_SLIP, FRICTION_LAW, Kind, MOMENT,
-    OSCILLATION, PENETRATION_TO_APPROACH, PENETRATION_TO_SIZE, SCHEME_DISSIPATION, TIE_OPENING,
-    UNSEEN_TO_APPROACH, UNSEEN_TO_SIZE,
+    self, ACTION_REACTION, COMPLEMENTARITY, CONE_VIOLATION, ELASTIC_SLIP, ENERGY, EQUILIBRIUM,
+    EXPLICIT_OPENING, EXPLICIT_PENETRATION, EXPLICIT_WEAR, FRICTION_LAW, Kind, MOMENT, OSCILLATION,
+    OUTDATED_NORMALS, PENETRATION_TO_APPROACH, PENETRATION_TO_SIZE, SCHEME_DISSIPATION,
+    TIE_OPENING, UNDETECTED_APPROACH, UNDETECTED_PENETRATION,
 };
 use super::gate::Gate;
 use super::view::View;
@@ -20,6 +20,7 @@ use crate::math::{Vec3, norm};
 use crate::model::definition::Model;
 use crate::model::ledger::EnergyQuality;
 use crate::model::limits::{GateMode, Limits};
+use crate::number::{digits, figure};
 use crate::system::Tally;
 use crate::tolerance::NEGLIGIBLE;
 
@@ -117,8 +118,8 @@ fn judge_interfaces(view: &View, limits: &Limits, gate: &mut Gate) {
                 gate.note_in_motion(&PENETRATION_TO_APPROACH, &place, pair, limit, t);
             } else {
                 note(&PENETRATION_TO_APPROACH, pair, limit);
-                let false_slip = [q.false_slip * r.carried, elastic];
-                note(&FALSE_SLIP, false_slip, limits.false_slip);
+                let elastic_slip = [q.elastic_slip * r.carried, elastic];
+                note(&ELASTIC_SLIP, elastic_slip, limits.elastic_slip);
             }
         }
         let mut note = |kind, pair, limit| gate.note(kind, &place, pair, limit, t);
@@ -128,11 +129,11 @@ fn judge_interfaces(view: &View, limits: &Limits, gate: &mut Gate) {
             let way = [look::slid(acting, conditions), limit];
             note(&EXPLICIT_WEAR, way, limits.explicit_wear);
         }
-        if let Some(pair) = look::false_shear(interface, &view.frame.state.u) {
-            note(&FALSE_SHEAR, pair, limits.false_shear);
+        if let Some(pair) = look::outdated_normals(interface, &view.frame.state.u) {
+            note(&OUTDATED_NORMALS, pair, limits.outdated_normals);
         }
-        let excess = [q.excess_shear * q.limit, q.limit];
-        note(&EXCESS_SHEAR, excess, limits.excess_shear);
+        let excess = [q.cone_violation * q.limit, q.limit];
+        note(&CONE_VIOLATION, excess, limits.cone_violation);
         let wrong = [q.friction_law * q.limit, q.limit];
         note(&FRICTION_LAW, wrong, limits.friction_law);
         let b = look::balance(interface, &view.frame.state.u);
@@ -170,16 +171,15 @@ pub(crate) fn judge_energy(
     // A quasi-static energy balance that is off by more than a thousandth of the energy in play is worth a note.
     if !moves && open > 1e-3 * scale {
         notes.push(format!(
-            "the ledger of energies is open by {:.1} % of the energy in play: works and losses are known to no more than that. Smaller increments make what comes of the course within them less; what they leave says that forces act along other directions than gaps have, as at edges that press or with small rotations",
+            "the error of the energy balance is {:.1} % of the total energy, and so is that of works and losses. Smaller increments reduce the part that comes from changes within an increment; the rest comes from forces along other directions than the gaps, as at edges in contact or with small rotations",
             100.0 * open / scale
         ));
     }
     // The same of what is not known of friction.
     if !moves && unknown > 1e-2 * scale {
         notes.push(format!(
-            "friction took {:.3e}, ± {unknown:.1e}: points began to slide within increments, at times that are not known. Smaller increments make it less",
-            ledger.friction
-        ));
+            "friction took {}, ± {unknown}: points began to slide within increments, at times that are not known. Smaller increments make it less",
+            figure(ledger.friction), unknown = digits(unknown, 2)));
     }
     if moves {
         let lost = [ledger.numerical.max(0.0), pair[1]];
@@ -207,10 +207,16 @@ fn judge_between(
     }
     if missed > 0.0 || approach > 0.0 {
         let size = [between.relative_to_size, 1.0];
-        gate.note(&UNSEEN_TO_SIZE, place, size, limits.unseen_to_size, t);
+        gate.note(
+            &UNDETECTED_PENETRATION,
+            place,
+            size,
+            limits.undetected_penetration,
+            t,
+        );
         let part = [missed, missed + approach];
-        let limit = limits.unseen_to_approach;
-        gate.note_in_motion(&UNSEEN_TO_APPROACH, place, part, limit, t);
+        let limit = limits.undetected_approach;
+        gate.note_in_motion(&UNDETECTED_APPROACH, place, part, limit, t);
     }
 }
 

@@ -9,6 +9,7 @@ use crate::body::{Turning, turning};
 use crate::math::{Vec3, dot, norm};
 use crate::model::definition::Body;
 use crate::model::limits::{GateMode, Limits};
+use crate::number::{digits, figure};
 use crate::system::State;
 
 /// The rotation of a link as a vector in space: in the plane its one component comes first.
@@ -143,7 +144,9 @@ fn note_far(view: &View, body: &str, way: f64, moved: f64, findings: &mut Vec<Fi
         return;
     }
     let mut finding = DoctorCause::FarAway.warning(format!(
-        "body {body} has moved by {way:.3e}, {moved:.2e} times the size of the model and the way that is prescribed"
+        "body {body} has moved by {way}, {moved} times the size of the model and the way that is prescribed",
+        way = figure(way),
+        moved = digits(moved, 3),
     ))
     .blame(Suspect::body(body, "far from where it was"))
     .advise("if it is not meant to fly or fall, look for an obstacle or a support that is missing, and for loads, masses and velocities in the wrong unit");

@@ -8,6 +8,7 @@ use crate::model::rigid::drivers::named;
 use crate::model::rigid::held::NO_PART;
 use crate::model::rigid::modes::modes;
 use crate::model::rigid::{drivers, free_bodies, held};
+use crate::number::figure;
 use crate::system::StepFailure;
 use crate::time::Trial;
 
@@ -162,7 +163,7 @@ fn smallest_gaps(view: &View) -> String {
         let smallest = look::initial_gaps(i)
             .into_iter()
             .fold(f64::INFINITY, f64::min);
-        format!("{}: {smallest:.3e}", i.name)
+        format!("{}: {smallest}", i.name, smallest = figure(smallest))
     });
     match gaps.collect::<Vec<_>>().as_slice() {
         [] => "there are no interfaces".into(),

@@ -19,6 +19,7 @@ use crate::math::vector::dot;
 use crate::model::contact::Contact;
 use crate::model::definition::{Dynamic, Model};
 use crate::model::frame::Frame;
+use crate::number::digits;
 use crate::solve::inertia::lumped;
 use crate::solve::spin::{Spin, mobility};
 use crate::system::{Assembler, Constraints, IncrementalRotation};
@@ -481,7 +482,9 @@ impl Explicit {
 pub(crate) fn unstable(step: &str, time: f64, dt: f64, stable: f64, duration: f64) -> RunError {
     RunError {
         message: format!(
-            "step {step}: the increment {dt:.4e} is above the stable one, {stable:.4e}"
+            "step {step}: the increment {dt} is above the stable one, {stable}",
+            dt = digits(dt, 5),
+            stable = digits(stable, 5)
         ),
         time,
         culprits: Vec::new(),

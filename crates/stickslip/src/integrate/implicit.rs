@@ -15,6 +15,7 @@ use crate::model::definition::{ContactAt, Dynamic, Model};
 use crate::model::frame::Frame;
 use crate::model::ledger::Flow;
 use crate::newton::{Converged, Origin};
+use crate::number::digits;
 use crate::solve::accepted::Accepted;
 use crate::solve::checks::{check_candidates, check_change};
 use crate::solve::condensed::in_motion;
@@ -604,7 +605,10 @@ impl Implicit {
         if relative > limit && 0.5 * dt >= model.steps[frame.step].increments.smallest {
             return Err(StepFailure::new(
                 Cause::TooFar,
-                format!("local error {relative:.1e} of the motion, more than `error` allows"),
+                format!(
+                    "local error {relative} of the motion, more than `error` allows",
+                    relative = digits(relative, 2)
+                ),
             ));
         }
         // It grows with the square of the increment: twice the length would be too much.

@@ -11,6 +11,7 @@ use crate::math::{Vec3, norm, scale};
 use crate::model::definition::Model;
 use crate::model::frame::{Frame, Motion};
 use crate::newton::Converged;
+use crate::number::digits;
 use crate::solve::accepted::Accepted;
 use crate::system::{
     BodyFrame, BodyFrames, BodyTurn, Carrier, Cause, Constraints, IncrementalRotation, State,
@@ -265,9 +266,8 @@ impl<'a> InertialFrame<'a> {
             return Err(StepFailure::new(
                 Cause::NotConverged,
                 format!(
-                    "bodies that turn are out of balance by {:.1e} of the forces in play after {passes} passes",
-                    off / scale.max(f64::MIN_POSITIVE)
-                ),
+                    "bodies that turn are out of balance by {} of the forces in play after {passes} passes",
+                    digits(off / scale.max(f64::MIN_POSITIVE), 2)),
             )
             .help("take smaller increments; bodies must not be strained by more than a few per cent"));
         }

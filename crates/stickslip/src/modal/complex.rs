@@ -16,6 +16,7 @@ use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::model::modal::{ComplexPlan, MapOver, MapPlan};
+use crate::number::digits;
 
 /// The modes that a step asks for.
 pub(crate) fn modes(
@@ -57,7 +58,8 @@ pub(crate) fn modes(
     // Above this residual of the equations of motion a note says so.
     if worst > 1e-4 {
         out.notes.push(format!(
-            "the equations of motion are left open by {worst:.1e} in the worst mode: ask for fewer modes"
+            "the relative residual of the equations of motion is {worst} in the worst mode: ask for fewer modes",
+            worst = digits(worst, 2),
         ));
     }
     if plan.sensitivity {
@@ -197,7 +199,7 @@ fn notes(linear: &Linear) -> Vec<String> {
     }
     if stick > 0 && steady > 0 {
         notes.push(format!(
-            "{stick} points stick: they have all of their stiffness along the surface"
+            "{stick} sticking points: full tangential stiffness"
         ));
     }
     if linear.damping.is_none() {

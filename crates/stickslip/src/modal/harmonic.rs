@@ -20,6 +20,7 @@ use crate::modal::{companion, shifted};
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::model::modal::HarmonicPlan;
+use crate::number::digits;
 
 /// Rounds in which what is left open is added, at most.
 const HARMONIC_ROUNDS: usize = 5;
@@ -281,7 +282,8 @@ fn notes(
     // Above this residual a note says so.
     if worst > 1e-3 {
         notes.push(format!(
-            "the equations of motion are left open by {worst:.1e} at the worst frequency: give the step a larger `count` of modes"
+            "the relative residual of the equations of motion is {worst} at the worst frequency: give the step a larger `count` of modes",
+            worst = digits(worst, 2),
         ));
     }
     // Without friction nothing grows.
@@ -291,8 +293,9 @@ fn notes(
     };
     if value > UNSTABLE_GROWTH * value.hypot(omega) {
         notes.push(format!(
-            "sliding is unstable: a motion of the frequency {:.6e} grows by {value:.6e}, so that no motion settles at the answer to the forces",
-            omega / TAU
+            "sliding is unstable: a motion of the frequency {} grows by {value}, so that no motion settles at the answer to the forces",
+            digits(omega / TAU, 5),
+            value = digits(value, 5),
         ));
     }
     let [_, _, others] = linear.points;

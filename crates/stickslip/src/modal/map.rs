@@ -21,6 +21,7 @@ use crate::linear::Complex;
 use crate::math::vector::norm;
 use crate::modal::companion;
 use crate::model::modal::{MapOver, MapPlan};
+use crate::number::digits;
 use crate::tolerance::NEGLIGIBLE;
 
 /// Rounds in which what modes leave open is added, at most.
@@ -362,13 +363,15 @@ pub(crate) fn notes(map: &FrictionMap) -> Vec<String> {
     for [factor, frequency] in map.critical.iter().take(TOLD_FACTORS) {
         notes.push(match map.over == MapOver::Friction.name() {
             true => format!(
-                "sliding becomes unstable at {factor:.6} times the friction of the step (mu {:.6}), with the frequency {frequency:.6e}",
-                factor * map.mu
+                "sliding becomes unstable at {factor:.6} times the friction of the step (mu {:.6}), with the frequency {frequency}",
+                factor * map.mu,
+                frequency = digits(frequency, 5),
             ),
             false => format!(
-                "sliding is unstable {} {factor:.6} times the {} of the step, with the frequency {frequency:.6e}",
+                "sliding is unstable {} {factor:.6} times the {} of the step, with the frequency {frequency}",
                 side(map, *factor),
-                map.over
+                map.over,
+                frequency = digits(frequency, 5),
             ),
         });
     }
@@ -389,8 +392,8 @@ pub(crate) fn notes(map: &FrictionMap) -> Vec<String> {
     // Above this residual a note says so.
     if map.residual > 1e-4 {
         notes.push(format!(
-            "modes of the map leave the equations of all dofs open by {:.1e}: ask for a smaller range",
-            map.residual
+            "modes of the map leave the equations of all dofs open by {}: ask for a smaller range",
+            digits(map.residual, 2)
         ));
     }
     notes

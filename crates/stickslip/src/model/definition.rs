@@ -83,7 +83,7 @@ pub struct SolutionPlan {
     pub settings: Settings,
     /// How its systems are solved.
     pub method: Solution,
-    /// Who factors condensed bodies.
+    /// The linear solver that factors condensed bodies.
     pub engine: EngineModel,
     /// Largest displacement increment relative to the size of the model.
     pub largest_change: f64,

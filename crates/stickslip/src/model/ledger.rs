@@ -1,4 +1,4 @@
-//! The energy ledger: what there is, where it came from and where it went, and what is left of the balance.
+//! The energy balance: what there is, where it came from and where it went, and what is left of the balance.
 
 use serde::Serialize;
 
@@ -84,7 +84,7 @@ pub(crate) struct Entered {
 pub struct EnergyQuality {
     /// Largest energy in play so far: stored and dissipated `[J]`.
     pub scale: f64,
-    /// By how much the balance was open so far at most `[J]`: its residual, or what grew out of nothing.
+    /// By how much the balance was open so far at most `[J]`: its residual, or spurious energy growth.
     pub largest: f64,
     /// The same relative to the energy in play `[-]`.
     pub residual: f64,
@@ -162,7 +162,7 @@ impl EnergyLedger {
             - self.artificial;
     }
 
-    /// By how much the balance is open `[J]`: what is left of it, or what has grown out of nothing, by an account of the scheme or none.
+    /// By how much the balance is open `[J]`: what is left of it, or spurious energy growth, by an account of the scheme or none.
     pub(crate) fn open(&self) -> f64 {
         self.residual
             .abs()

@@ -35,19 +35,19 @@ pub struct Limits {
     /// False slip of sticking points over an increment, over the elastic approach. Not judged in motion, where a point that comes to rest
     /// sticks.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
-    pub false_slip: f64,
+    pub elastic_slip: f64,
     /// Complementarity: mean gap that pressure bridges, `Σ A p max(0, g - h(p)) / Σ A p height`. Not judged in an explicit step.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub complementarity: f64,
-    /// Depth by which the surfaces enter each other between contact points, beyond what the points say, over the height of the cell beneath: nodes of
+    /// Penetration between contact points, beyond what the points say, over the height of the cell beneath: nodes of
     /// the primary in faces of the secondary, and places all over these faces in the primary. Measured from the geometry alone.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
-    pub unseen_to_size: f64,
+    pub undetected_penetration: f64,
     /// The same depth, or the distance by which the surfaces stand apart all around a point that carries pressure, over itself plus the elastic
-    /// approach: the part of the approach that contact points do not see. 1 where surfaces enter each other and nothing presses them
+    /// approach: the part of the approach that contact points do not see. 1 where surfaces penetrate and nothing presses them
     /// apart. The largest so far of both are compared.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
-    pub unseen_to_approach: f64,
+    pub undetected_approach: f64,
     /// By how much tied surfaces come apart or slide, as the root of the mean square over places all over the secondary: over the elastic approach, or the largest displacement where
     /// that is less. Measured from the geometry alone, as a tie holds points or means over faces. The largest so far of both are compared.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
@@ -62,7 +62,7 @@ pub struct Limits {
     pub explicit_wear: f64,
     /// Shear beyond the limit of friction, over the largest limit of the interface.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
-    pub excess_shear: f64,
+    pub cone_violation: f64,
     /// Friction obeyed: by how much the shear of points that slip is not their limit or acts along their slip, and that of points that stick is above it,
     /// over the largest limit of the interface. Found from the tractions that are reported and from how the points have moved.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
@@ -117,7 +117,7 @@ pub struct Limits {
     /// What the pressure of an interface with `small-sliding` has along its surfaces, which have turned while its normals stayed: beside the limit of friction, or beside itself where there is no
     /// friction. It is shear that is not there.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
-    pub false_shear: f64,
+    pub outdated_normals: f64,
     /// In explicit steps, where springs stand for rigid stops and ties by a penalty: their energy over the elastic energy of all bodies, the largest so far of both. Under the same force that is what
     /// they give way over what the bodies do.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
@@ -147,14 +147,14 @@ impl Default for Limits {
             gate: GateMode::Error,
             penetration_to_size: 0.01,
             penetration_to_approach: 0.01,
-            false_slip: 0.01,
+            elastic_slip: 0.01,
             complementarity: 1e-3,
-            unseen_to_size: 0.02,
-            unseen_to_approach: 0.15,
+            undetected_penetration: 0.02,
+            undetected_approach: 0.15,
             tie_opening: 0.05,
             oscillation: 0.25,
             explicit_wear: 1.0,
-            excess_shear: 1e-3,
+            cone_violation: 1e-3,
             friction_law: 1e-3,
             action_reaction: 1e-9,
             moment: 1e-2,
@@ -166,7 +166,7 @@ impl Default for Limits {
             prestress: 0.05,
             mode_residual: 1e-3,
             displacement: 1.0,
-            false_shear: 0.25,
+            outdated_normals: 0.25,
             explicit_opening: 0.05,
             explicit_penetration: 0.25,
             scheme_dissipation: 0.02,

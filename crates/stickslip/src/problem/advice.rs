@@ -11,6 +11,7 @@ use super::expected::{Expected, accepts};
 use super::key;
 use super::nearest::{nearest, suggest, synonym};
 use super::tree::{Value, number};
+use crate::number::digits;
 
 /// Where a value without a key is meant to go, by the key of the table that it stands for: the first that takes it.
 pub(super) const USUAL: &[(&str, &[&str])] = &[
@@ -31,10 +32,114 @@ pub(super) const USUAL: &[(&str, &[&str])] = &[
 ];
 
 /// Words for which there is no key, and what to do instead.
-const WORDLESS: &[(&str, &str)] = &[(
-    "gap",
-    "the gap is the one that the meshes leave: `body.NAME.translate = [0, 0.1]` moves one of them, and `interface.NAME.initial` says what becomes of a gap",
-)];
+const WORDLESS: &[(&[&str], &str)] = &[
+    (
+        &["gap"],
+        "the gap is the one that the meshes leave: `body.NAME.translate = [0, 0.1]` moves one of them, and `interface.NAME.initial` says what becomes of a gap",
+    ),
+    (
+        &["3d", "3D", "three-dimensional"],
+        "three dimensions are `solid`",
+    ),
+    (
+        &["2d", "2D", "plane"],
+        "two dimensions are `plane-strain`, `plane-stress` (thin bodies, with `thickness`) or `axisymmetric`",
+    ),
+    (
+        &["elastic", "linear-elastic", "linear"],
+        "linear elasticity is `isotropic = { young = 210e9, poisson = 0.3 }`, `orthotropic` or `anisotropic`",
+    ),
+    (
+        &[
+            "plastic",
+            "plasticity",
+            "elastoplastic",
+            "yield",
+            "yield-stress",
+            "hardening",
+        ],
+        "bodies are linear elastic: there is no plasticity",
+    ),
+    (
+        &[
+            "neo-hooke",
+            "neo-hookean",
+            "mooney-rivlin",
+            "ogden",
+            "hyperelastic",
+            "rubber",
+        ],
+        "bodies are linear elastic, with small strains: large strains of rubber need a hyperelastic program",
+    ),
+    (
+        &["fixed", "fix", "clamped", "clamp", "encastre"],
+        "a support prescribes displacements: `x = 0, y = 0`, and `z = 0` in space, hold all of a body",
+    ),
+    (
+        &["force", "traction", "pressure"],
+        "forces and pressures are loads: `load.NAME = { set = \"body.set\", traction = { value = [0, -1e6] } }`",
+    ),
+    (
+        &[
+            "u1", "u2", "u3", "ux", "uy", "uz", "U1", "U2", "U3", "dx", "dy", "dz",
+        ],
+        "displacements are `x`, `y` and `z`",
+    ),
+    (
+        &["shell", "shells", "beam", "beams", "truss", "membrane"],
+        "bodies are solids, meshed in the plane or in space: there are no shells, beams or trusses",
+    ),
+    (
+        &[
+            "conductivity",
+            "specific-heat",
+            "heat-capacity",
+            "heat",
+            "thermal-conductivity",
+        ],
+        "there is no heat conduction: temperatures are given, by `temperature.NAME`, and `expansion` of a material makes them strain",
+    ),
+    (
+        &["self-contact", "self"],
+        "there is no self-contact of one surface: two surfaces of a body that face each other can be `secondary` and `primary`",
+    ),
+];
+
+/// What to do instead of a word for which there is none here.
+pub(super) fn instead(word: &str) -> Option<&'static str> {
+    let known = WORDLESS.iter().find(|(words, _)| words.contains(&word));
+    known.map(|(_, advice)| *advice)
+}
+
+/// Units of stress and length that people write, in newtons and metres.
+const UNITS: &[(&str, f64)] = &[
+    ("Pa", 1.0),
+    ("kPa", 1e3),
+    ("MPa", 1e6),
+    ("GPa", 1e9),
+    ("N/mm2", 1e6),
+    ("N/mm^2", 1e6),
+    ("m", 1.0),
+    ("cm", 1e-2),
+    ("mm", 1e-3),
+    ("um", 1e-6),
+    ("µm", 1e-6),
+    ("N", 1.0),
+    ("kN", 1e3),
+];
+
+/// What to write in place of a number with a unit. Problem files have none: one unit a number would be wrong in all files that are in millimetres, and to
+/// convert all numbers it would take the dimension of every key and of every constant of a law.
+pub(super) fn without_unit(text: &str) -> Option<String> {
+    let text = text.trim();
+    let unit = text.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.eE".contains(c));
+    let value: f64 = text[..text.len() - unit.len()].trim().parse().ok()?;
+    let factor = UNITS.iter().find(|(name, _)| *name == unit.trim())?.1;
+    Some(format!(
+        "numbers have no units: any consistent set will do; in metres and newtons this is {}",
+        digits(value * factor, 8)
+    ))
+}
 
 /// The name of an entry of which only the user knows the name.
 const NAME: &str = "NAME";
@@ -117,8 +222,8 @@ pub(super) fn elsewhere(
     if nearest(name, names).is_some() {
         return suggest(name, "allowed here", names);
     }
-    if let Some((_, advice)) = WORDLESS.iter().find(|(word, _)| word == name) {
-        return (*advice).into();
+    if let Some(advice) = instead(name) {
+        return advice.into();
     }
     let whole = Expected::of(root, root);
     let away = words.find_map(|w| match found {

@@ -6,6 +6,7 @@ use toml::{Table, Value};
 
 use super::data::Problem;
 use super::document::Document;
+use super::key;
 use crate::error::{Diagnostic, Error};
 use crate::results::{Saved, Source};
 
@@ -65,7 +66,7 @@ pub fn changed_keys(
         })
         .collect();
     if !ended && end_of(after, step) <= t && end_of(before, step) > t {
-        let key = format!("step.{step}.duration");
+        let key = format!("step.{}.duration", key::entry(step));
         let message = format!("the run has come to time {t}, and the step would end before");
         findings.push(Diagnostic::new(key, message).help("let it end later"));
     }
@@ -79,7 +80,7 @@ fn end_of(problem: &Problem, step: usize) -> f64 {
 
 fn may_change(path: &[String], step: usize, ended: bool) -> bool {
     let word = |i: usize| path.get(i).map_or("", String::as_str);
-    let number = word(1).parse::<usize>().ok();
+    let number = key::index(word(1));
     match (word(0), number) {
         ("output" | "title", _) => true,
         ("step", Some(i)) => i > step || i == step && !ended && word(2) == "duration",
@@ -113,7 +114,7 @@ fn compare(
             if before.iter().chain(after).all(Value::is_table) =>
         {
             for i in 0..before.len().max(after.len()) {
-                inner(i.to_string(), before.get(i), after.get(i));
+                inner(key::entry(i), before.get(i), after.get(i));
             }
         }
         (before, after) if before != after => out.push(path.clone()),

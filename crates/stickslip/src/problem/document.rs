@@ -49,7 +49,7 @@ impl Document {
         Ok(Document::new(source, Some(file)))
     }
 
-    /// Adds overrides `path=value`, for example `interface.base.friction.coulomb.mu=0.3` or `step.0.duration=2`.
+    /// Adds overrides `path=value`, for example `interface.base.friction.coulomb.mu=0.3` or `step.1.duration=2`.
     pub fn with_overrides(mut self, overrides: impl IntoIterator<Item = String>) -> Self {
         self.overrides.extend(overrides);
         self

@@ -18,7 +18,7 @@ use crate::contact::law::wear::{Feedback, WearModel};
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Interface {
-    /// The surface whose points are kept from entering the primary: `body.set` or a `[set.NAME]`. Choose the softer
+    /// The secondary (slave) surface, whose points may not penetrate the primary: `body.set` or a `[set.NAME]`. Choose the softer
     /// of the two; the more finely meshed one takes its place unless `roles` say otherwise.
     pub secondary: String,
     /// The surface that carries the normal: `body.set`, a `[set.NAME]`, or an obstacle.
@@ -136,7 +136,7 @@ impl Interface {
     }
 }
 
-/// Which of two surfaces is kept from entering the other.
+/// Which of two surfaces is the secondary one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]

@@ -1,4 +1,14 @@
-//! Paths of keys, as people write them: `interface.base.friction`, `set."a b".of`, `step.0.duration`.
+//! Paths of keys, as people write them: `interface.base.friction`, `set."a b".of`, `step.1.duration`. Entries of lists are counted from 1.
+
+/// The segment of an entry of a list.
+pub(super) fn entry(index: usize) -> String {
+    (index + 1).to_string()
+}
+
+/// The index of an entry of a list.
+pub(super) fn index(segment: &str) -> Option<usize> {
+    segment.parse::<usize>().ok()?.checked_sub(1)
+}
 
 /// Splits the path of a key into its segments. Segments with other characters than letters, digits, `-` and `_` are
 /// quoted, with `"` or `'`; there are no escapes.

@@ -23,6 +23,12 @@ const SYNONYMS: &[(&str, &str)] = &[
     ("friction-coefficient", "mu"),
     ("time", "duration"),
     ("mesh", "generate"),
+    // Names of before 0.1.
+    ("unseen-to-size", "undetected-penetration"),
+    ("unseen-to-approach", "undetected-approach"),
+    ("false-slip", "elastic-slip"),
+    ("excess-shear", "cone-violation"),
+    ("false-shear", "outdated-normals"),
 ];
 
 /// The one of `names` that `word` probably stands for: a synonym, or the nearest if at most a third of it differs.

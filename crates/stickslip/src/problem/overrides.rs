@@ -8,7 +8,8 @@ use super::tree::{self, Table, Value};
 use crate::error::Diagnostic;
 
 /// Applies one override, `interface.base.friction.coulomb.mu=0.3`, to the parsed text. Tables that are missing on
-/// the way are made; `step.0.duration` counts the entries of a list from 0.
+/// the way are made; entries of a list are counted from 1, as in `step.1.duration`, or called by their `name`, as in
+/// `step.press.duration`.
 ///
 /// The value is read as TOML; a bare word that is not TOML is taken as a string (`model.space=solid`).
 pub(super) fn apply<'i>(root: &mut Table<'i>, text: &'i str) -> Result<(), Diagnostic> {
@@ -39,13 +40,12 @@ pub(super) fn apply<'i>(root: &mut Table<'i>, text: &'i str) -> Result<(), Diagn
         }
         Place::List(list) => {
             let count = list.len();
-            let entry = last.parse::<usize>().ok().and_then(|i| list.get_mut(i));
-            let entry = entry.ok_or_else(|| {
+            let entry = position(list, last).ok_or_else(|| {
                 wrong(format!(
-                    "there is no entry `{last}`: the list has {count}, counted from 0"
+                    "there is no entry `{last}`: the list has {count}, counted from 1"
                 ))
             })?;
-            *entry = value;
+            list[entry] = value;
             Ok(())
         }
     }
@@ -62,7 +62,10 @@ impl<'a, 'i> Place<'a, 'i> {
             Place::Table(table) => table
                 .entry(tree::key_elsewhere(segment.to_string()))
                 .or_insert_with(|| tree::elsewhere(DeValue::Table(Table::new()))),
-            Place::List(list) => list.get_mut(segment.parse::<usize>().ok()?)?,
+            Place::List(list) => {
+                let entry = position(list, segment)?;
+                list.get_mut(entry)?
+            }
         };
         match value.get_mut() {
             DeValue::Table(table) => Some(Place::Table(table)),
@@ -70,6 +73,16 @@ impl<'a, 'i> Place<'a, 'i> {
             _ => None,
         }
     }
+}
+
+/// The entry of a list by its number or its name.
+fn position(list: &[Spanned<Value>], segment: &str) -> Option<usize> {
+    let by_number = key::index(segment).filter(|i| *i < list.len());
+    let named = |entry: &Spanned<Value>| {
+        let name = entry.get_ref().as_table().and_then(|t| t.get("name"));
+        name.and_then(|n| n.get_ref().as_str()) == Some(segment)
+    };
+    by_number.or_else(|| list.iter().position(named))
 }
 
 /// At the first `=` outside quotes.
@@ -120,7 +133,7 @@ mod tests {
         let source = "[interface.base.friction.coulomb]\nmu = 1.0\n[[step]]\nduration = 1.0\n";
         let changed = set(source, "interface.base.friction.coulomb.mu = 0.3").unwrap();
         assert_eq!(changed, table(&source.replace("mu = 1.0", "mu = 0.3")));
-        let changed = set(source, "step.0.duration=2.5").unwrap();
+        let changed = set(source, "step.1.duration=2.5").unwrap();
         assert_eq!(
             changed,
             table(&source.replace("duration = 1.0", "duration = 2.5"))
@@ -130,7 +143,7 @@ mod tests {
             table("a.\"b.c\".d = {x=[1,2]}")
         );
         assert_eq!(
-            set("a.v = [1, 2]", "a.v.1=5").unwrap(),
+            set("a.v = [1, 2]", "a.v.2=5").unwrap(),
             table("a.v = [1, 5]")
         );
     }
@@ -155,12 +168,12 @@ mod tests {
                 "override `a.b=1`: `a` is neither a table nor an entry",
             ),
             (
-                "step.1.duration=1",
-                "override `step.1.duration=1`: `step.1` is neither a table nor an entry",
+                "step.2.duration=1",
+                "override `step.2.duration=1`: `step.2` is neither a table nor an entry",
             ),
             (
-                "step.1=1",
-                "override `step.1=1`: there is no entry `1`: the list has 1, counted from 0",
+                "step.0=1",
+                "override `step.0=1`: there is no entry `0`: the list has 1, counted from 1",
             ),
             ("a..b=1", "override `a..b=1`: `a..b` has an empty part"),
         ] {

@@ -25,12 +25,12 @@ pub struct Solver {
     /// kept.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     pub energy_limit: f64,
-    /// Whether bodies that supports leave free, and that loads push, are moved in quasi-static steps until they touch, and held by weak
-    /// springs that follow them until contact holds them and the springs carry nothing.
+    /// Whether unconstrained bodies under load are moved in quasi-static steps until they touch, and stabilised by weak springs until contact is
+    /// established and the springs carry nothing.
     pub follow_loose_bodies: bool,
     /// How the systems of Newton's method are solved.
     pub method: Solution,
-    /// Who factors condensed bodies, and keeps the factors.
+    /// The linear solver that factors condensed bodies, and keeps the factors.
     #[serde(skip_serializing_if = "is_usual")]
     pub engine: EngineModel,
     /// Systems of linear equations.

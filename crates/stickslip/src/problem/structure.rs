@@ -41,7 +41,7 @@ pub(super) fn description(schema: &Json, path: &[String]) -> Option<String> {
         let named = named.copied().find(|(name, _)| name == segment);
         let own = expected.own;
         let first = own.get("prefixItems").and_then(Json::as_array);
-        let position = segment.parse::<usize>().ok();
+        let position = key::index(segment);
         let next = named.map(|(_, schema)| schema).or_else(|| {
             position
                 .and_then(|i| first?.get(i))
@@ -87,7 +87,10 @@ impl<'s> Walk<'s> {
             DeValue::Array(list) if expected.allows("array") => self.list(&expected, list, span),
             DeValue::String(word) if expected.allows("string") => {
                 if !expected.words.is_empty() && !expected.words.contains(&&**word) {
-                    let help = suggest(word, "allowed", &expected.words);
+                    let help = match advice::instead(word) {
+                        Some(instead) => instead.to_string(),
+                        None => suggest(word, "allowed", &expected.words),
+                    };
                     self.report(span, format!("`{word}` is not known here"), Some(help));
                 }
             }
@@ -102,8 +105,15 @@ impl<'s> Walk<'s> {
                 if !name.is_empty() {
                     let message =
                         format!("expected {name}, found {}", found_name(found.type_str()));
-                    let advice = advice::place(self.root, &self.path, &expected, found);
-                    let help = advice.or_else(|| expected.description.map(first_sentence));
+                    let unit = match found {
+                        DeValue::String(text) if expected.allows("number") => {
+                            advice::without_unit(text)
+                        }
+                        _ => None,
+                    };
+                    let help = unit
+                        .or_else(|| advice::place(self.root, &self.path, &expected, found))
+                        .or_else(|| expected.description.map(first_sentence));
                     self.report(span, message, help);
                 }
             }
@@ -177,7 +187,7 @@ impl<'s> Walk<'s> {
         let before = self.findings.len();
         for (i, value) in list.iter().enumerate() {
             if let Some(schema) = first.and_then(|f| f.get(i)).or(rest) {
-                self.path.push(i.to_string());
+                self.path.push(key::entry(i));
                 self.value(schema, value, value.span());
                 self.path.pop();
             }

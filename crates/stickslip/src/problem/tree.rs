@@ -1,5 +1,6 @@
 //! The parsed text with the place of every key and value.
 
+use super::key;
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -31,7 +32,7 @@ pub(super) fn find(root: &Table, path: &[String]) -> Option<Range<usize>> {
                 break;
             };
             (key.span(), value)
-        } else if let Some(value) = list.and_then(|l| l.get(segment.parse::<usize>().ok()?)) {
+        } else if let Some(value) = list.and_then(|l| l.get(key::index(segment)?)) {
             (value.span(), value)
         } else {
             break;
@@ -57,7 +58,7 @@ pub(super) fn path(root: &Table, place: &Range<usize>) -> Vec<String> {
             DeValue::Table(table) => entries(table),
             DeValue::Array(list) => {
                 let numbers = list.iter().enumerate();
-                numbers.map(|(i, value)| (i.to_string(), value)).collect()
+                numbers.map(|(i, value)| (key::entry(i), value)).collect()
             }
             _ => break,
         };

@@ -21,6 +21,7 @@ use super::restart::go_back_to;
 use crate::contact::look;
 use crate::error::Error;
 use crate::model::cycling::{Block, ChosenJump};
+use crate::number::digits;
 use crate::results::observer::{Event, Observer};
 use crate::tolerance::SAME;
 
@@ -257,11 +258,10 @@ fn keep_block(
     let off = running.jumps.made.off(&places(run));
     if after >= count && off.worst() > 0.0 {
         run.solver.log.notes.push(format!(
-            "step `{}`: jumps over cycles are off by {:.1e} of the worn volume and by {:.1e} of the greatest depth, as halving each tells",
+            "step `{}`: jumps over cycles are off by {} of the worn volume and by {} of the greatest depth, as halving each tells",
             run.step().name,
-            off.volume,
-            off.depth
-        ));
+            digits(off.volume, 2),
+            digits(off.depth, 2)));
     }
     release_block(run, observers)
 }

@@ -10,6 +10,7 @@ use crate::contact::look;
 use crate::integrate::explicit::explicit;
 use crate::model::frame::ContactMemory;
 use crate::model::limits::GateMode;
+use crate::number::figure;
 use crate::solve::accepted::Accepted;
 use crate::system::{Cause, StepFailure};
 use crate::time::Trial;
@@ -38,7 +39,8 @@ pub(super) fn check_energy_balance(
         let was_vain = running.no_progress;
         if is_to_halve(running, length, [opened, may], resolved, smallest) {
             let message = format!(
-                "the balance of energies opens by {opened:.3e} over the increment, more than its share of what the limit leaves"
+                "the balance of energies opens by {opened} over the increment, more than its share of what the limit leaves",
+                opened = figure(opened)
             );
             return Err(StepFailure::new(Cause::TooFar, message));
         }

@@ -3,6 +3,7 @@
 use super::parts::{Run, view};
 use crate::assess::{diagnosis, doctor, no_equilibrium, unsupported};
 use crate::error::{Error, RunError};
+use crate::number::digits;
 use crate::results::summary::FallbackSummary;
 use crate::system::{Cause, StepFailure};
 use crate::time::Trial;
@@ -28,8 +29,8 @@ pub(super) fn note_fallbacks(run: &mut Run, trial: &Trial) {
             .all(|f| f.tried.kind != tried.kind)
         {
             run.solver.log.notes.push(format!(
-                "{} after {:.6e}: plain iteration failed; {} {outcome} in {} iterations with {} (`fallbacks` of the summary lists all of them)",
-                step.name, trial.from, tried.kind.name(), tried.iterations, tried.solver
+                "{} after {}: plain iteration failed; {} {outcome} in {} iterations with {} (`fallbacks` of the summary lists all of them)",
+                step.name, digits(trial.from, 6), tried.kind.name(), tried.iterations, tried.solver
             ));
         }
         if summary.attempts.fallbacks.len() < MOST_REASONS {
@@ -87,8 +88,11 @@ pub(super) fn reject(run: &mut Run, trial: &Trial, failure: &StepFailure) {
     summary.attempts.cutbacks += 1;
     if summary.attempts.cutback_reasons.len() < MOST_REASONS {
         summary.attempts.cutback_reasons.push(format!(
-            "{} ({:.6e} to {:.6e}): {}",
-            run.model.steps[run.frame.step].name, trial.from, trial.to, failure.message
+            "{} ({} to {}): {}",
+            run.model.steps[run.frame.step].name,
+            digits(trial.from, 6),
+            digits(trial.to, 6),
+            failure.message
         ));
     }
 }

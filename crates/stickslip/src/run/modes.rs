@@ -11,6 +11,7 @@ use crate::modal::{self, ModalOutcome, Mode};
 use crate::model::kick::{Course, Kick, Share};
 use crate::model::limits::GateMode;
 use crate::model::modal::Modal;
+use crate::number::{digits, figure};
 use crate::results::observer::{Event, Observer};
 use crate::solve::work::Work;
 
@@ -77,15 +78,14 @@ pub(super) fn tell_growth(run: &mut Run, observers: &mut [&mut dyn Observer]) ->
     };
     let growth = kick.growth(&run.model.steps[kick.step].name);
     run.solver.log.notes.push(format!(
-        "{}: the mode with growth {:.6e} and frequency {:.6e} grew by {:.6e} with {:.6e}, over {:.1} cycles in which points stuck and opened as at the start; its amplitude ends at {:.3e}",
+        "{}: the mode with growth {} and frequency {} grew by {} with {}, over {:.1} cycles in which points stuck and opened as at the start; its amplitude ends at {}",
         growth.step,
-        growth.growth,
-        growth.frequency,
-        growth.measured_growth,
-        growth.measured_frequency,
+        digits(growth.growth, 5),
+        digits(growth.frequency, 5),
+        digits(growth.measured_growth, 5),
+        digits(growth.measured_frequency, 5),
         growth.cycles,
-        growth.amplitudes[1],
-    ));
+        figure(growth.amplitudes[1])));
     run.summary.vibrations.growth.push(growth);
     run.tell_notes(observers)
 }

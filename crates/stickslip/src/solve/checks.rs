@@ -6,6 +6,7 @@ use crate::contact::look;
 use crate::math::larger;
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
+use crate::number::{digits, figure};
 use crate::system::{Cause, State, StepFailure};
 use crate::tolerance::NEGLIGIBLE;
 
@@ -48,9 +49,8 @@ impl Recovered<'_> {
             return Err(StepFailure::new(
                 Cause::Interior,
                 format!(
-                    "the recovered interior is not in balance: {:.1e} of the forces in play",
-                    left.sqrt() / size
-                ),
+                    "the recovered interior is not in balance: {} of the forces in play",
+                    digits(left.sqrt() / size, 2)),
             )
             .help(
                 "where the run takes factors from a folder (`--cache`), remove that first: they may be damaged; else set `solver.method = \"sparse\"`",
@@ -73,7 +73,8 @@ pub(crate) fn check_change(
         return Err(StepFailure::new(
             Cause::TooFar,
             format!(
-                "two successive solutions are {change:.3e} apart, more than `largest-change` allows"
+                "two successive solutions are {change} apart, more than `largest-change` allows",
+                change = figure(change)
             ),
         ));
     }
@@ -93,8 +94,9 @@ pub(crate) fn check_way<'a>(
     for interface in contacts {
         if let Some(deep) = look::tunnels(interface, ends.map(|s| &*s.u), ends.map(|s| s.t)) {
             let message = format!(
-                "interface `{}`: bodies overlap by {deep:.3e} on the way to what was found: an axle that nothing but contact holds has turned through what it touches",
-                interface.name
+                "interface `{}`: bodies overlap by {deep} on the way to what was found: an axle that nothing but contact holds has turned through what it touches",
+                interface.name,
+                deep = figure(deep)
             );
             return Err(StepFailure::new(Cause::TooFar, message)
                 .help("smaller increments, or finer cells where the bodies touch"));

@@ -5,6 +5,7 @@ use crate::machine::available_memory;
 use crate::model::definition::{Solution, Step};
 use crate::model::scene::Scene;
 use crate::newton::condensed::Cost;
+use crate::number::figure;
 
 /// Multiplications and additions of dense matrices in a second. Only ratios of these rates matter, and they differ little between machines.
 const DENSE_RATE: f64 = 3e10;
@@ -82,11 +83,11 @@ pub(crate) fn choose(scene: &Scene, cost: &Cost, matrix: &BlockCsr, held: &[bool
         .sum();
     let bytes = cost.bytes as f64 + pending_bytes(scene) as f64 * static_.min(TOGETHER as f64);
     let what = format!(
-        "{} of {free} dofs are contact candidates; {:.3e} entries, {:.3e} + {:.3e} flops, {:.2} GB",
+        "{} of {free} dofs are contact candidates; {} entries, {} + {} flops, {:.2} GB",
         cost.candidates,
-        cost.nonzeros,
-        cost.factor,
-        cost.condense,
+        figure(cost.nonzeros),
+        figure(cost.factor),
+        figure(cost.condense),
         bytes / 1e9
     );
     // This part of the free memory may be taken.

@@ -11,6 +11,7 @@ use crate::model::rigid::drivers;
 use crate::model::rigid::drivers::named;
 use crate::model::rigid::free_bodies::FreeBody;
 use crate::model::scene::Scene;
+use crate::number::figure;
 use crate::system::{Cause, Culprit, Force, StepFailure};
 use crate::time::Trial;
 
@@ -338,7 +339,9 @@ fn thrown(scene: Scene, astray: Astray, trial: Trial) -> StepFailure {
     let mut failure = StepFailure::new(
         Cause::TooFar,
         format!(
-            "body {name}, which only contact can hold, was thrown by {way:.3e}: what it has to follow and to close allows {most:.3e}{by}"
+            "body {name}, which only contact can hold, was thrown by {way}: what it has to follow and to close allows {most}{by}",
+            way = figure(way),
+            most = figure(most)
         ),
     );
     for driver in drivers {

@@ -1,4 +1,4 @@
-//! Floating bodies are moved until they touch, and anchored until contact holds them.
+//! Floating bodies are moved until they touch, and stabilised until contact is established.
 
 use super::closure::{close, pushes};
 use super::floating_bodies::{Floating, Origin, no_load};
@@ -15,6 +15,7 @@ use crate::model::frame::Frame;
 use crate::model::rigid::free_bodies;
 use crate::model::rigid::free_bodies::FreeBody;
 use crate::model::scene::Scene;
+use crate::number::figure;
 use crate::solve::condensed::{candidates, condensing};
 use crate::solve::released;
 use crate::system::{Stage, State};
@@ -156,7 +157,11 @@ fn close_all(
     let mut names = Vec::new();
     for (free, &moved) in bodies.iter().zip(&closure.moved) {
         if moved > 0.0 {
-            names.push(format!("{} by {moved:.3e}", free.name(model)));
+            names.push(format!(
+                "{} by {moved}",
+                free.name(model),
+                moved = figure(moved)
+            ));
         }
     }
     if let Some(origin) = &mut solver.floating.origin {
@@ -171,7 +176,7 @@ fn close_all(
         return false;
     }
     solver.log.notes.push(format!(
-        "moved without strain until they touch: {}",
+        "initial rigid-body motion to close the gap: {}",
         names.join(", ")
     ));
     set_displacements(solver, model, frame, contact, closure.u);
@@ -241,7 +246,7 @@ pub fn anchor(
         names.push(format!("{} ({})", free.name(model), motions.join(", ")));
     }
     solver.log.notes.push(format!(
-        "followed until contact holds them: {}",
+        "stabilised until contact was established: {}",
         names.join("; ")
     ));
     solver.floating.anchors = Some(anchors);
@@ -315,7 +320,7 @@ pub fn restart_from_rigid_motion(
     let mut names = Vec::new();
     for (k, free) in floating.bodies().iter().enumerate() {
         let way = rigid_part(free, &anchors.moved(k), model.dofs, &mut u);
-        names.push(format!("{} by {way:.3e}", free.name(model)));
+        names.push(format!("{} by {way}", free.name(model), way = figure(way)));
     }
     solver.log.notes.push(format!(
         "moved without strain to where contact holds them: {}",

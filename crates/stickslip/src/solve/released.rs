@@ -8,6 +8,7 @@ use crate::model::definition::Model;
 use crate::model::frame::Frame;
 use crate::model::rigid::free_bodies::FreeBody;
 use crate::model::scene::Scene;
+use crate::number::digits;
 use crate::time::Trial;
 use crate::tolerance::NEGLIGIBLE;
 
@@ -107,8 +108,9 @@ pub fn note_released(solver: &mut Solver, model: &Model, frame: &Frame, accepted
     for (body, name) in released {
         floating.told.push(body);
         solver.log.notes.push(format!(
-            "{}: nothing presses body {name} any more at {:.6e}; it stays where it was",
-            model.steps[frame.step].name, accepted.state.t
+            "{}: nothing presses body {name} any more at {}; it stays where it was",
+            model.steps[frame.step].name,
+            digits(accepted.state.t, 6)
         ));
     }
 }

@@ -62,7 +62,7 @@ pub(crate) struct Log {
     pub method: &'static str,
     /// Why so.
     pub reason: String,
-    /// Who factors condensed bodies.
+    /// The linear solver that factors condensed bodies.
     pub engine: Option<Arc<dyn Engine>>,
 }
 

@@ -124,7 +124,7 @@ fn no_number_at_a_key_makes_a_panic() {
 fn counts_have_bounds() {
     for (change, said) in [
         (
-            "step.1.increments.fixed=1000000000",
+            "step.2.increments.fixed=1000000000",
             "must be at most 100000000",
         ),
         (

@@ -337,18 +337,18 @@ fn what_cannot_be_cut_or_drawn_is_said_at_its_key() {
         (
             "pretension.screw = { hold = true }",
             "pretension.crew = { hold = true }",
-            "step.1.pretension.crew",
+            "step.2.pretension.crew",
         ),
         (
             "{ hold = true }",
             "{ hold = true, force = 2 }",
-            "step.1.pretension.screw",
+            "step.2.pretension.screw",
         ),
-        ("{ hold = true }", "{}", "step.1.pretension.screw"),
+        ("{ hold = true }", "{}", "step.2.pretension.screw"),
         (
             "{ force = 20 }",
             "{ force = 20, amplitude = \"a\" }",
-            "step.0.pretension.screw.amplitude",
+            "step.1.pretension.screw.amplitude",
         ),
     ];
     for (right, new, key) in wrong {

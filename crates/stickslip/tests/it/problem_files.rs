@@ -517,7 +517,7 @@ fn data_made_by_hand_obeys_the_same_rules() {
     problem.step[0].duration = -1.0;
     problem.support.get_mut("left").unwrap().set = "blok".into();
     let keys: Vec<String> = problem.check().into_iter().map(|f| f.key).collect();
-    assert_eq!(keys, ["step.0.duration", "support.left.set"]);
+    assert_eq!(keys, ["step.1.duration", "support.left.set"]);
 }
 
 #[test]

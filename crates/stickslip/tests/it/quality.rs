@@ -54,12 +54,12 @@ fn a_good_solution_passes_and_every_figure_is_listed() {
     for figure in [
         "penetration-to-size",
         "penetration-to-approach",
-        "false-slip",
+        "elastic-slip",
         "complementarity",
-        "unseen-to-size",
-        "unseen-to-approach",
+        "undetected-penetration",
+        "undetected-approach",
         "oscillation",
-        "excess-shear",
+        "cone-violation",
         "friction-law",
         "action-reaction",
         "moment",
@@ -90,7 +90,7 @@ fn soft_springs_penetrate_too_far() {
 fn soft_springs_of_stick_slip_falsely() {
     let simulation =
         with("interface.joint.enforcement.penalty = { factor = 1e4, tangential-factor = 1e-3 }");
-    trips(&simulation, "false-slip");
+    trips(&simulation, "elastic-slip");
     let normal = simulation.summary.quality.figures.iter();
     let mut normal = normal.filter(|f| f.figure == "penetration-to-approach");
     assert!(normal.all(|f| f.met));
@@ -219,7 +219,7 @@ fn the_gate_can_warn_or_be_off() {
     let off = with(&format!("{soft}quality.gate = \"off\""));
     assert!(off.summary.quality.met && off.summary.quality.figures.is_empty());
     let unlimited = with(&format!(
-        "{soft}quality = {{ penetration-to-size = inf, penetration-to-approach = inf, false-slip = inf }}"
+        "{soft}quality = {{ penetration-to-size = inf, penetration-to-approach = inf, elastic-slip = inf }}"
     ));
     assert!(unlimited.summary.quality.met, "{:?}", violated(&unlimited));
 }
@@ -295,7 +295,7 @@ fn contact_that_a_coarse_secondary_misses_is_found_or_said() {
                 let error = force(&simulation) / fine[4] - 1.0;
                 assert!(error.abs() < 0.25, "{cells}{more}: {error}");
             } else {
-                trips(&simulation, "unseen-to-approach");
+                trips(&simulation, "undetected-approach");
             }
         }
     }
@@ -398,7 +398,7 @@ support.base = {{ set = "lower.bottom", x = 0, y = 0, z = 0 }}"#
     for element in ["hex8", "tet4", "hex20"] {
         let simulation = narrow(&body(element), "upper.bottom", "lower.top", AS_NAMED);
         assert_eq!(force(&simulation), 0.0);
-        trips(&simulation, "unseen-to-approach");
+        trips(&simulation, "undetected-approach");
         // With the narrow body as secondary nothing is missed; its cells make it that.
         for (secondary, primary) in [("lower.top", "upper.bottom"), ("upper.bottom", "lower.top")] {
             let simulation = narrow(&body(element), secondary, primary, "");
@@ -414,7 +414,7 @@ support.base = {{ set = "lower.bottom", x = 0, y = 0, z = 0 }}"#
     let ball = "obstacle.ball.sphere = { centre = [1, 1, 0.7], radius = 0.3 }";
     let simulation = narrow(ball, "upper.bottom", "ball", "");
     assert_eq!(force(&simulation), 0.0);
-    trips(&simulation, "unseen-to-approach");
+    trips(&simulation, "undetected-approach");
 }
 
 #[test]
@@ -440,7 +440,7 @@ step = [{ name = "press", increments = { fixed = 1 } }]"#);
     assert!(between.penetration > 0.03, "{between:?}");
     let layer = look::quality(interface).layer;
     assert!((0.05..0.25).contains(&layer), "{layer}");
-    trips(&simulation, "unseen-to-approach");
+    trips(&simulation, "undetected-approach");
 }
 
 #[test]
@@ -528,7 +528,7 @@ fn small_sliding_says_by_how_much_surfaces_have_turned() {
     // Pressure has as much along the surface: in the mean of what presses, beside a limit of a fifth of the pressure.
     let figure = |simulation: &Simulation| {
         let figures = simulation.summary.quality.figures.iter();
-        let mut figures = figures.filter(|f| f.figure == "false-shear");
+        let mut figures = figures.filter(|f| f.figure == "outdated-normals");
         figures.next().cloned()
     };
     let figure_of = |simulation| figure(simulation).expect("a figure");
@@ -539,7 +539,7 @@ fn small_sliding_says_by_how_much_surfaces_have_turned() {
             [along + f * x.abs() / 8.0, force + f]
         });
     let judged = figure_of(&simulation);
-    let strict = discs(", kinematics.small-sliding = {} }\nquality.false-shear = 0.1 #");
+    let strict = discs(", kinematics.small-sliding = {} }\nquality.outdated-normals = 0.1 #");
     assert!(!figure_of(&strict).met && !strict.summary.quality.met);
     let expected = along / (0.2 * force);
     assert!(
@@ -967,7 +967,7 @@ step = [{{ increments.fixed = 1 }}]
 "#
         ));
         let figures = &simulation.summary.quality.figures;
-        let figure = figures.iter().find(|f| f.figure == "unseen-to-approach");
+        let figure = figures.iter().find(|f| f.figure == "undetected-approach");
         assert!(figure.expect("judged").value < 0.05, "{half}: {figure:?}");
         assert!(
             simulation.summary.quality.met,
@@ -1198,7 +1198,7 @@ step = [{ increments.fixed = 4 }]
     simulation.run(&mut []).expect("it is in balance");
     let gate = &simulation.summary.quality;
     assert!(gate.met, "{:#?}", violated(&simulation));
-    assert!(figure(&simulation, "unseen-to-approach").value < 0.05);
+    assert!(figure(&simulation, "undetected-approach").value < 0.05);
     let shear = simulation.summary.interfaces[0].shear_force;
     let normal = simulation.summary.interfaces[0].normal_force;
     let force = |f: [f64; 3]| f[0].hypot(f[1]);
@@ -1316,14 +1316,14 @@ step = [{{}}]
 fn units_are_blamed_for_sizes_alone() {
     let heavy = BLOCKS.replace("poisson = 0.3", "poisson = 0.3, density = 1e6");
     let simulation = run(&format!(
-        "{heavy}[quality]\nunseen-to-approach = 1e-9\nrotation = 1e-12\n"
+        "{heavy}[quality]\nundetected-approach = 1e-9\nrotation = 1e-12\n"
     ));
     let findings = &simulation.summary.findings;
     assert!(
         findings.iter().any(|f| f.cause == DoctorCause::MixedUnits),
         "{findings:?}"
     );
-    for (name, blamed) in [("unseen-to-approach", false), ("rotation", true)] {
+    for (name, blamed) in [("undetected-approach", false), ("rotation", true)] {
         let said = figure(&simulation, name).sentence(findings);
         assert_eq!(said.contains("mixed-units"), blamed, "{said}");
     }

@@ -382,7 +382,7 @@ fn what_is_still_to_come_may_change_and_the_rest_not() {
     assert!(keys("fixed = 3", "fixed = 3\n\n[[step]]", 0).is_empty());
     assert_eq!(
         keys("fixed = 3", "fixed = 4", 0),
-        ["step.0.increments.fixed"]
+        ["step.1.increments.fixed"]
     );
     assert_eq!(
         keys("mu = 0.3", "mu = 0.2", 0),

@@ -8,7 +8,7 @@ use stickslip::problem::{Document, schema};
 const OWN: &str = "some";
 
 /// Stands for an entry of a list.
-const ENTRY: &str = "0";
+const ENTRY: &str = "1";
 
 /// What people write where a table is wanted.
 const WRITTEN: [&str; 7] = [
@@ -247,6 +247,39 @@ const SAYS: &[(&str, &str)] = &[
         "write `model.space = \"plane-strain\"`",
     ),
     ("output = 5", "write `output.every = 5`"),
+    ("model.space = \"3d\"", "three dimensions are `solid`"),
+    ("model.space = \"2d\"", "two dimensions are `plane-strain`"),
+    (
+        "material.steel.elastic = { young = 1.0 }",
+        "linear elasticity is `isotropic",
+    ),
+    (
+        "material.steel.plastic = { yield = 1.0 }",
+        "bodies are linear elastic: there is no plasticity",
+    ),
+    (
+        "material.steel.neo-hooke = { c = 1.0 }",
+        "bodies are linear elastic, with small strains",
+    ),
+    (
+        "material.steel.isotropic.conductivity = 1.0",
+        "there is no heat conduction",
+    ),
+    (
+        "support.a.fixed = true",
+        "a support prescribes displacements",
+    ),
+    ("support.a.u2 = 0", "displacements are `x`, `y` and `z`"),
+    ("support.a.force = 3", "forces and pressures are loads"),
+    ("body.a.shell = { thickness = 1 }", "bodies are solids"),
+    (
+        "material.steel.isotropic.young = \"210 GPa\"",
+        "numbers have no units: any consistent set will do; in metres and newtons this is 210e9",
+    ),
+    (
+        "model.thickness = \"5mm\"",
+        "numbers have no units: any consistent set will do; in metres and newtons this is 0.005",
+    ),
 ];
 
 #[test]

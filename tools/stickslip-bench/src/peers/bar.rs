@@ -103,12 +103,12 @@ pub fn deck() -> String {
 /// Runs the impact: explicit by itself, implicit against CalculiX.
 pub fn measure(bench: &Bench) -> Result<(), String> {
     let case = example("steel-bar/case.toml")?;
-    let fixed = |n: usize| format!("step.0.increments.fixed={n}");
+    let fixed = |n: usize| format!("step.1.increments.fixed={n}");
     let explicit = bench.analyse(&case, &[fixed(EXPLICIT)])?;
     let settings = [
         fixed(IMPLICIT),
         // springs and masses as CalculiX has them
-        "step.0.dynamic={scheme={hht={}},contact-mass=\"as-meshed\"}".to_string(),
+        "step.1.dynamic={scheme={hht={}},contact-mass=\"as-meshed\"}".to_string(),
     ];
     let implicit = bench.analyse(&case, &settings)?;
     let theirs = match bench.calculix {

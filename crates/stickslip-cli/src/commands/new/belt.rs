@@ -4,7 +4,7 @@ use super::quantity::{self, FORCE, LINE_LOAD, MASS, SPEED};
 use super::target::Target;
 use super::written::{Values, Written};
 use crate::failure::Failure;
-use crate::style::digits;
+use stickslip::number::digits;
 
 /// A mass on a moving belt, held by a spring, with more friction at rest than in motion: stick-slip.
 #[derive(Debug, clap::Args)]

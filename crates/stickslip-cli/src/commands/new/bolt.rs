@@ -4,7 +4,7 @@ use super::quantity::{self, FORCE, LENGTH, STRESS};
 use super::target::Target;
 use super::written::{MM, MPA, Values, Written};
 use crate::failure::Failure;
-use crate::style::digits;
+use stickslip::number::digits;
 
 /// A bolt that is tightened, holds a sleeve on a base, and is pulled.
 #[derive(Debug, clap::Args)]

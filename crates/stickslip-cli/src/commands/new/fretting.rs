@@ -6,7 +6,7 @@ use super::quantity::{self, LENGTH, LINE_LOAD, WEAR};
 use super::target::Target;
 use super::written::{MM, MPA, Values, Written};
 use crate::failure::Failure;
-use crate::style::digits;
+use stickslip::number::digits;
 
 /// A cylinder pressed on a flat that is driven back and forth: both wear after Archard, over many cycles.
 #[derive(Debug, clap::Args)]

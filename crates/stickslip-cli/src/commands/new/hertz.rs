@@ -6,6 +6,7 @@ use stickslip::assess::doctor::WIDEST_CONTACT;
 
 use super::quantity::{self, STRESS};
 use crate::failure::Failure;
+use stickslip::number::figure;
 
 /// What both bodies are made of.
 #[derive(Debug, Clone, clap::Args)]
@@ -112,8 +113,8 @@ impl Hertz {
         let power = if self.shape == Shape::Line { 2 } else { 3 };
         let less = |ratio: f64| {
             format!(
-                "at most {:.3e} {} do",
-                self.load * ratio.powi(power),
+                "at most {} {} do",
+                figure(self.load * ratio.powi(power)),
                 self.unit()
             )
         };

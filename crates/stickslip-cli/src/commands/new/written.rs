@@ -4,7 +4,7 @@
 //! for a number with eight digits, more than any of it is worth, or for a text, `@name:4@` for a number with four, `@name:0@` for a whole one and
 //! `@name:all@` for one with all its digits. What is between lines `@if name@`, `@else@` and `@end@` depends on whether that holds.
 
-use crate::style::digits;
+use stickslip::number::digits;
 
 /// Millimetres in a metre, for lengths of files in mm, N, MPa.
 pub const MM: f64 = 1e3;

@@ -51,7 +51,7 @@ On several machines each process makes one part, --shard 1/4 to --shard 4/4, wit
 
 Examples:
   stickslip sweep case.toml --set interface.base.friction.coulomb.mu=0.1..0.5:5 --set support.top.y=-1e-5,-2e-5
-  stickslip sweep case.toml --zip --set step.0.duration=1,2 --set step.0.increments.fixed=10,20 --column ALLSE
+  stickslip sweep case.toml --zip --set step.1.duration=1,2 --set step.1.increments.fixed=10,20 --column ALLSE
   stickslip sweep case.toml --set interface.base.friction.coulomb.mu=0.1..0.5:50 --cache factors --shard 2/4
   stickslip sweep --merge case.sweep.shards")]
 pub struct Arguments {

@@ -32,7 +32,7 @@ impl Plan {
         let mut axes: Vec<Axis> = Vec::new();
         let mut paths: Vec<&str> = Vec::new();
         for text in fix {
-            let help = "write --fix path=value, for example --fix step.0.duration=2";
+            let help = "write --fix path=value, for example --fix step.1.duration=2";
             let (path, _) = values::split(text)
                 .map_err(|message| Failure::Arguments(format!("--fix: {message}"), help.into()))?;
             paths.push(path);

@@ -7,7 +7,7 @@ use crate::error::Diagnostic;
 use crate::registry::Samples;
 use crate::system::Component;
 
-/// A dashpot: in motion a force in proportion to the rate of a weighted sum of displacements acts against it. In quasi-static steps it has none.
+/// A dashpot: a viscous force on a linear combination of velocities. It does not act in quasi-static steps.
 ///
 /// Sets of n points stand for n dashpots, as with equations. What they take counts with damping in the balance of energies.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

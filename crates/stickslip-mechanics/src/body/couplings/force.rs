@@ -6,6 +6,7 @@ use super::elimination::ELIMINATION_STIFFNESS;
 use super::{Couplings, CouplingsForce, CouplingsMemory, Row, Tie};
 use crate::body::couplings::fit;
 use crate::math::larger;
+use crate::number::figure;
 use crate::system::{Assembler, Cause, Force, Stage, StepFailure, Tangent};
 use crate::tolerance::SAME;
 
@@ -327,7 +328,8 @@ fn missed(at_rest: bool, [from, to]: [f64; 2], way: Way) -> f64 {
 
 fn contradiction(name: &str, off: f64) -> StepFailure {
     let message = format!(
-        "coupling {name}: all displacements of an equation are prescribed, and it is off by {off:.3e}"
+        "coupling {name}: all displacements of an equation are prescribed, and it is off by {off}",
+        off = figure(off)
     );
     StepFailure::new(Cause::NotConverged, message)
         .help("prescribe one displacement less, or values that satisfy the equation")

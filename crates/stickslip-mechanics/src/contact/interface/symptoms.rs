@@ -7,6 +7,7 @@ use super::parts::Interface;
 use crate::contact::law::normal::NormalLaw;
 use crate::contact::response::Status;
 use crate::math::{add, distance, norm};
+use crate::number::{digits, figure};
 use crate::system::{Culprit, Evidence, Tally};
 
 /// Most culprits of one interface.
@@ -172,13 +173,19 @@ fn said(e: Evidence) -> Culprit {
         ));
     }
     what.push(format!(
-        "gap {:.3e}, pressure {:.3e}, shear {:.3e} of {:.3e}",
-        e.gap, e.pressure, e.shear, e.limit
+        "gap {}, pressure {}, shear {} of {}",
+        figure(e.gap),
+        figure(e.pressure),
+        figure(e.shear),
+        figure(e.limit)
     ));
     Culprit {
         place: format!(
-            "interface {}, {who} at ({:.4e}, {:.4e}, {:.4e})",
-            e.interface, x[0], x[1], x[2]
+            "interface {}, {who} at ({}, {}, {})",
+            e.interface,
+            digits(x[0], 5),
+            digits(x[1], 5),
+            digits(x[2], 5)
         ),
         what: what.join(", "),
         evidence: Some(Box::new(e)),

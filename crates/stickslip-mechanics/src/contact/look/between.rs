@@ -1,4 +1,4 @@
-//! What lies between contact points: how far the surfaces enter each other, or stand apart under pressure, where contact is not checked.
+//! What lies between contact points: how far the surfaces penetrate, or stand apart under pressure, where contact is not checked.
 //!
 //! Points of the secondary see what lies opposite them. A fine primary may enter a coarse face between its points, a corner of a face may enter
 //! between quadrature points, and a mean gap may be zero where surfaces are apart. All of that is measured here from the geometry alone, whatever
@@ -23,7 +23,7 @@ use crate::tolerance::NEGLIGIBLE;
 /// What the contact points of an interface do not see.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Between {
-    /// Largest depth by which the surfaces enter each other beyond what the contact points nearby say `[m]`.
+    /// Largest penetration of the surfaces beyond what the contact points nearby say `[m]`.
     pub penetration: f64,
     /// The same relative to the height of the cell beneath `[-]`.
     pub relative_to_size: f64,

@@ -52,6 +52,6 @@ pub use spacing::coarser;
 pub use table::{initial_gaps, table};
 pub use tie_rows::tie_rows;
 pub use touching::{is_hard, rubs, touched};
-pub use turned::{false_shear, normals_turned};
+pub use turned::{normals_turned, outdated_normals};
 pub use wear::{taken, wear, wear_places, worn_volume};
 pub use wear_profile::{WearProfile, explicit_limit, wear_profile};

@@ -16,7 +16,7 @@ pub struct Quality {
     /// The same relative to the height of the cell beneath `[-]`.
     pub relative_to_size: f64,
     /// Largest false slip of a sticking point over the last increment `[m]`.
-    pub false_slip: f64,
+    pub elastic_slip: f64,
     /// Largest velocity of slip at a point that carries less than its limit, over the last increment `[m/s]`: the creep of a regularised
     /// slip rule, see [`creep`](crate::contact::law::slip::creep).
     pub creep: f64,
@@ -26,7 +26,7 @@ pub struct Quality {
     /// How much of the pressure goes up and down from point to point `[-]`; see [`oscillation`].
     pub oscillation: f64,
     /// Largest shear beyond the limit of friction, relative to the largest limit of the interface `[-]`.
-    pub excess_shear: f64,
+    pub cone_violation: f64,
     /// Largest amount by which the shear of a point that slips is not its limit, or by which that of one that sticks is above it, over the last
     /// increment and relative to the largest limit of the interface `[-]`. Limits follow from the pressure and the law, slip from how the nodes have moved:
     /// it is judged by what is reported, not by what made it.
@@ -37,7 +37,7 @@ pub struct Quality {
     /// What `complementarity` is relative to, `Σ A p height` `[N m]`.
     #[serde(skip)]
     pub pressed: f64,
-    /// What `excess_shear` is relative to: the largest limit of friction `[Pa]`.
+    /// What `cone_violation` is relative to: the largest limit of friction `[Pa]`.
     #[serde(skip)]
     pub limit: f64,
     /// Work of the tractions along what is left of the violations of gap and stick, `Σ A (p |v_n| + |t| |v_t|)` `[J]`.
@@ -126,7 +126,7 @@ pub fn quality(contact: ContactView) -> Quality {
         }
         if h.status == Status::Stick && sticks {
             let slid = h.moved;
-            q.false_slip = q.false_slip.max(slid);
+            q.elastic_slip = q.elastic_slip.max(slid);
             // Springs that nothing removes hold what all increments have put into them.
             let left = match updated {
                 true => slid,
@@ -149,7 +149,7 @@ pub fn quality(contact: ContactView) -> Quality {
         q.complementarity = bridged / pressed;
     }
     if most > 0.0 {
-        q.excess_shear = over_limit / most;
+        q.cone_violation = over_limit / most;
     }
     let cone = contact.state.cone;
     if cone.limit > 0.0 {

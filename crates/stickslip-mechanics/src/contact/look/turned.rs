@@ -21,7 +21,7 @@ pub fn normals_turned(contact: ContactView, u: &[f64]) -> f64 {
 
 /// Force that pressure has along the surfaces as they are now, as normals are those of the reference configuration, and what it is judged beside: the limit of friction, or the
 /// force of pressure where there is none, `Σ A p sin θ` and `Σ A q` or `Σ A p` `[N]`; `None` unless normals are those of the reference configuration.
-pub fn false_shear(contact: ContactView, u: &[f64]) -> Option<[f64; 2]> {
+pub fn outdated_normals(contact: ContactView, u: &[f64]) -> Option<[f64; 2]> {
     let turns = turns_of_normals(contact, u);
     let frictional = contact.laws.friction_law().frictional();
     let sum = turns.iter().fold([0.0; 2], |[along, beside], &(i, turn)| {

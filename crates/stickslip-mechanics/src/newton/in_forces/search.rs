@@ -5,6 +5,7 @@ use super::columns::Columns;
 use super::linear::Linear;
 use super::place::{At, Place};
 use crate::friction::{map, solve};
+use crate::number::digits;
 use crate::system::{Cause, StepFailure};
 
 /// Forces that solve the friction problem of these points, and the displacements under them; `free` are forces by dof, and `alone` the displacements
@@ -55,9 +56,9 @@ pub(super) fn search(
             None => break,
             Some(solution) => {
                 let sentence = format!(
-                    "no solver ends the friction problem of {} points; its error is still {:.1e}",
+                    "no solver ends the friction problem of {} points; its error is still {}",
                     chosen.len(),
-                    solution.error
+                    digits(solution.error, 2)
                 );
                 return Err(linear.attempt.failure(Cause::NotConverged, sentence));
             }

@@ -11,6 +11,7 @@ use crate::math::{Vec3, add, add_scaled, dot, norm, normalize, scale, vector};
 use crate::model::definition::Body;
 use crate::model::rigid::modes::modes;
 use crate::model::scene::Scene;
+use crate::number::figure;
 use crate::tolerance::{NEGLIGIBLE, SAME};
 
 /// Directions in which contact can push one body.
@@ -138,8 +139,8 @@ fn judge(
         return Some((
             DoctorCause::SlidesAway,
             format!(
-                "the loads pull body {name} off what it lies on, by {:.3e}",
-                -pressing
+                "the loads pull body {name} off what it lies on, by {}",
+                figure(-pressing)
             ),
         ));
     }
@@ -147,9 +148,8 @@ fn judge(
         (
             DoctorCause::SlidesAway,
             format!(
-                "body {name} slides away: the loads push it along its contact by {along:.3e}, and friction resists {:.3e} at most",
-                mu * pressing
-            ),
+                "body {name} slides away: the loads push it along its contact by {along}, and friction resists {} at most",
+                figure(mu * pressing), along = figure(along)),
         )
     })
 }

@@ -17,6 +17,7 @@ use crate::error::RunError;
 use crate::math::Vec3;
 use crate::model::definition::Model;
 use crate::model::rigid::drivers;
+use crate::number::{digits, figure};
 use crate::shape::ElementKind;
 use crate::system::{Cause, Evidence, StepFailure};
 use crate::time::Trial;
@@ -156,9 +157,9 @@ fn tried(view: &View, trial: &Trial, attempt: usize, counters: Counters) -> Vec<
     let now = &view.solver.newton.statistics;
     let count = |now: usize, then: usize| now.saturating_sub(then);
     let mut tried = vec![format!(
-        "increment {:.6e} to {:.6e}, attempt {attempt}: {} Newton iterations with line search",
-        trial.from,
-        trial.to,
+        "increment {} to {}, attempt {attempt}: {} Newton iterations with line search",
+        digits(trial.from, 6),
+        digits(trial.to, 6),
         count(now.iterations, counters.iterations)
     )];
     match count(now.augmentations, counters.augmentations) {
@@ -268,7 +269,10 @@ fn free_mode(view: &View, trial: &Trial, free: &[FloatingBody], how: &str) -> Fi
         if gap > 0.0 {
             finding = finding.blame(point(
                 &e,
-                format!("gap {gap:.3e}, the smallest at the last state"),
+                format!(
+                    "gap {gap}, the smallest at the last state",
+                    gap = figure(gap)
+                ),
             ));
         }
     }

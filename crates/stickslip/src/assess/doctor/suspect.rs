@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::keep::Keep;
 use crate::math::Vec3;
+use crate::number::digits;
 
 /// How bad it is.
 #[derive(
@@ -137,7 +138,13 @@ impl fmt::Display for Suspect {
             None => write!(f, " {}", self.name)?,
         }
         if let Some([x, y, z]) = self.position {
-            write!(f, " at ({x:.4e}, {y:.4e}, {z:.4e})")?;
+            write!(
+                f,
+                " at ({x}, {y}, {z})",
+                x = digits(x, 5),
+                y = digits(y, 5),
+                z = digits(z, 5)
+            )?;
         }
         match self.remark.as_str() {
             "" => Ok(()),

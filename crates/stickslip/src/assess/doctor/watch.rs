@@ -13,6 +13,7 @@ use crate::contact::look;
 use crate::contact::look::{Resolution, Resultant};
 use crate::math::Vec3;
 use crate::model::Body;
+use crate::number::digits;
 use crate::tolerance::{NEGLIGIBLE, SAME};
 
 /// What is remembered of an interface.
@@ -200,9 +201,8 @@ fn left(view: &View, interface: ContactView, watch: &Watch) -> Option<Finding> {
     let name = &interface.name;
     // What is thrown may well fly on.
     let finding = DoctorCause::LeftPrimary.warning(format!(
-        "interface {name} carries nothing any more after time {:.4e}: what carried last has gone over the edge of the primary, and nothing lies opposite",
-        watch.carried_at
-    ))
+        "interface {name} carries nothing any more after time {}: what carried last has gone over the edge of the primary, and nothing lies opposite",
+        digits(watch.carried_at, 5)))
     .note_unless(!view.model.moves());
     let finding = Finding {
         time: Some(watch.carried_at),

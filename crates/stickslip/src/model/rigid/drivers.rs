@@ -5,6 +5,7 @@ use super::held::{NO_PART, Unheld};
 use super::modes::{Mode, modes};
 use crate::contact::interface::{Interface, Primary};
 use crate::model::rigid::held;
+use crate::number::figure;
 
 /// Force along a motion, relative to the sum of its parts, that is rounding. Tuned.
 const NO_FORCE_ALONG: f64 = 1e-8;
@@ -142,7 +143,7 @@ pub(crate) fn drivers(scene: &Scene, body: usize, t: f64) -> Vec<Driver> {
     found.sort_by(|a, b| b.1.total_cmp(&a.1));
     let loads = found.into_iter().map(|(key, force)| Driver {
         key,
-        what: format!("pushes with {force:.3e}"),
+        what: format!("pushes with {force}", force = figure(force)),
     });
     let mut drivers: Vec<Driver> = loads.collect();
     if drivers.is_empty() {
@@ -216,7 +217,7 @@ fn movers(scene: &Scene, body: usize, t: f64) -> Vec<Driver> {
             out.push((
                 way,
                 format!("support.{}", support.name),
-                format!("moves by {way:.3e}"),
+                format!("moves by {way}", way = figure(way)),
             ));
         }
     }
@@ -243,7 +244,7 @@ impl Push {
         each.truncate(NAMES_A_SENTENCE);
         let driver = |(key, force): &(String, f64)| Driver {
             key: key.clone(),
-            what: format!("pushes with {:.3e}", force.abs()),
+            what: format!("pushes with {}", figure(force.abs())),
         };
         each.into_iter().map(driver).collect()
     }

@@ -114,7 +114,7 @@ fn exchange_note(problem: &Problem, interface: &InterfaceDefinition) -> Option<S
     let table = problem.interface.get(&interface.name)?;
     interface.exchanged.then(|| {
         format!(
-            "interface {}: {} has the larger cells, so the points of {} are kept from entering it; forces and slip are reported as of the sides as they are named (`roles = \"as-named\"` keeps them)",
+            "interface {}: {} has the larger cells, so {} is the secondary surface in the computation; forces and slip are reported for the sides as they are named (`roles = \"as-named\"` keeps the roles)",
             interface.name, table.secondary, table.primary
         )
     })

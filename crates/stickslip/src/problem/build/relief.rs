@@ -7,6 +7,7 @@ use super::fault::problem_error;
 use crate::contact::interface::InterfaceDefinition;
 use crate::error::{Diagnostic, Error};
 use crate::math::{Vec3, add, add_scaled, cross, dot, normalize, sub};
+use crate::number::{digits, figure};
 use crate::roughness::Figures;
 
 /// Gives interfaces the heights that the problem says they have; what there is to say of them.
@@ -68,8 +69,18 @@ fn figures(name: &str, map: &Figures) -> String {
         n => format!("; {n} points had not been measured"),
     };
     format!(
-        "interface {name}: the map of {} by {} points has Sq {:.3e}, Sa {:.3e}, skewness {:.2}, kurtosis {:.2}, Sdq {:.3e}, {density:.3e} summits of radius {radius:.3e} an area, bandwidth {bandwidth:.3}; as a statistic it is normal.micro-contact with sigma = {:.4e}, slope = {:.4e}{holes}",
-        map.columns, map.rows, s.rq, s.ra, s.skewness, s.kurtosis, s.slope, s.rq, s.mean_slope
+        "interface {name}: the map of {} by {} points has Sq {}, Sa {}, skewness {:.2}, kurtosis {:.2}, Sdq {}, {density} summits of radius {radius} an area, bandwidth {bandwidth:.3}; as a statistic it is normal.micro-contact with sigma = {}, slope = {}{holes}",
+        map.columns,
+        map.rows,
+        figure(s.rq),
+        figure(s.ra),
+        s.skewness,
+        s.kurtosis,
+        figure(s.slope),
+        digits(s.rq, 5),
+        digits(s.mean_slope, 5),
+        density = figure(density),
+        radius = figure(radius)
     )
 }
 
@@ -80,9 +91,12 @@ fn note(interface: &InterfaceDefinition) -> String {
     let square = heights.iter().map(|h| (h - mean).powi(2)).sum::<f64>() / n;
     let [low, high] = [f64::min, f64::max].map(|f| heights.iter().copied().fold(heights[0], f));
     format!(
-        "interface {}: heights at {n} points from {low:.3e} to {high:.3e}, root mean square {:.3e} about their mean of {mean:.3e}",
+        "interface {}: heights at {n} points from {low} to {high}, root mean square {} about their mean of {mean}",
         interface.name,
-        square.sqrt()
+        figure(square.sqrt()),
+        low = figure(low),
+        high = figure(high),
+        mean = figure(mean)
     )
 }
 

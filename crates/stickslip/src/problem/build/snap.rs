@@ -8,6 +8,7 @@ use crate::contact::look;
 use crate::error::Error;
 use crate::math::{Vec3, add as add_vectors, norm};
 use crate::mesh::{Mesh, check};
+use crate::number::figure;
 
 /// By which vectors points of the mesh are to be moved, and a note for each interface that asks for it.
 #[derive(Debug, Clone, Default)]
@@ -38,8 +39,9 @@ pub(super) fn add(
             snapped.entry(point).or_insert(by);
         }
         moves.notes.push(format!(
-            "interface {}: {count} points of the mesh moved onto the primary, by {largest:.3e} at most",
-            interface.name
+            "interface {}: {count} points of the mesh moved onto the primary, by {largest} at most",
+            interface.name,
+            largest = figure(largest)
         ));
     }
     moves.add(snapped);

@@ -514,7 +514,7 @@ impl Surfaces<'_> {
         let (Some((n, to)), Some((m, too))) = (side(secondary), side(primary)) else {
             return false;
         };
-        // The faces of a slit look at each other where it ends (cosine of the angle), and meshes may have them enter each other a little
+        // The faces of a slit look at each other where it ends (cosine of the angle), and meshes may have them penetrate a little
         // there (sine of the angle).
         dot(n, m) < -0.5 && dot(to, m) > -0.1 && dot(too, n) > -0.1
     }

@@ -15,6 +15,7 @@ use crate::error::{Diagnostic, Error};
 use crate::io::vtu;
 use crate::math::{Vec3, scale};
 use crate::model::Setup;
+use crate::number::figure;
 
 /// How many runs surfaces have been worn in, at most.
 pub(super) fn rounds(problem: &Problem) -> usize {
@@ -70,9 +71,10 @@ pub(super) fn add_round(
             }
         }
         moves.notes.push(format!(
-            "interface {}: {count} points of the mesh moved into their bodies as worn in {}, by {largest:.3e} at most",
+            "interface {}: {count} points of the mesh moved into their bodies as worn in {}, by {largest} at most",
             interface.name,
-            file.display()
+            file.display(),
+            largest = figure(largest),
         ));
     }
     moves.add(moved);

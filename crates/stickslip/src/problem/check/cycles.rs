@@ -1,5 +1,6 @@
 //! Steps that are gone through again and again.
 
+use super::super::key;
 use super::super::{Cycles, Problem};
 use super::findings::Findings;
 use crate::model::Jump;
@@ -10,7 +11,7 @@ const MOST_CYCLES: usize = 1_000_000;
 /// What may not change over cycles, from `span[0]` to `span[1]` in amplitude tables.
 pub(super) fn check(findings: &mut Findings, key: &[&str], problem: &Problem, span: [f64; 2]) {
     let [start, end] = span;
-    let step = key.get(1).and_then(|i| i.parse::<usize>().ok());
+    let step = key.get(1).and_then(|i| key::index(i));
     let Some(step) = step.and_then(|i| problem.step.get(i)) else {
         return;
     };

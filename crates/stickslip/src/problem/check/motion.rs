@@ -1,6 +1,7 @@
 //! What dynamic steps need.
 
 use super::super::Problem;
+use super::super::key;
 use super::findings::Findings;
 use crate::registry::Family;
 
@@ -22,7 +23,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
         let Some(dynamic) = &step.dynamic else {
             continue;
         };
-        let i = i.to_string();
+        let i = key::entry(i);
         let scheme = &dynamic.scheme;
         let key = ["step", &i, "dynamic", "scheme", scheme.kind()];
         findings.faults(&key, scheme.as_dyn().faults());

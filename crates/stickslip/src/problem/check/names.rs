@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::super::key;
 use super::super::nearest::suggest;
 use super::super::{Problem, Section, Select};
 use super::findings::Findings;
@@ -167,7 +168,7 @@ fn spelled(problem: &Problem, findings: &mut Findings) {
         let name = step.name.as_deref().unwrap_or("step");
         if name.is_empty() || name.chars().count() > LONGEST_NAME || name.contains(char::is_control)
         {
-            let key = ["step", &i.to_string(), "name"];
+            let key = ["step", &key::entry(i), "name"];
             let message = format!("`{}` cannot be the name of a step", name.escape_debug());
             findings.add(&key, message, "give it 1 to 100 printable characters");
         }
@@ -250,7 +251,7 @@ fn sets(problem: &Problem, findings: &mut Findings) {
                 self::set(
                     problem,
                     findings,
-                    &["set", name, "union", &i.to_string()],
+                    &["set", name, "union", &key::entry(i)],
                     part,
                 );
             }

@@ -1,5 +1,6 @@
 //! Cuts through bolts, and what steps do with them.
 
+use super::super::key;
 use super::super::nearest::suggest;
 use super::super::{Problem, Section, SpaceKind, Tension};
 use super::findings::Findings;
@@ -45,7 +46,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
         body(problem, findings, name);
     }
     for (i, step) in problem.step.iter().enumerate() {
-        let i = i.to_string();
+        let i = key::entry(i);
         for (name, tension) in &step.pretension {
             let key = ["step", i.as_str(), "pretension", name.as_str()];
             if !problem.pretension.contains_key(name) {

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::super::key;
 use super::super::nearest::suggest;
 use super::super::{Cycles, Increments, Problem, Step};
 use super::cycles;
@@ -18,7 +19,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
     let mut names = BTreeSet::new();
     let mut start = 0.0;
     for (i, step) in problem.step.iter().enumerate() {
-        let i = i.to_string();
+        let i = key::entry(i);
         let at = |last| ["step", i.as_str(), last];
         if let Some(name) = &step.name
             && !names.insert(name)
@@ -134,7 +135,7 @@ fn harmonic(findings: &mut Findings, i: &str, problem: &Problem, step: &Step) {
         let load = problem.load.get(name);
         if load.is_some_and(|l| matches!(l.kind, LoadKind::Spring(_))) {
             let message = format!("load `{name}` is a spring, which does not shake");
-            findings.add(&[&at("loads")[..], &[&k.to_string()]].concat(), message, "");
+            findings.add(&[&at("loads")[..], &[&key::entry(k)]].concat(), message, "");
         }
     }
     for name in harmonic
@@ -193,7 +194,7 @@ fn kick(findings: &mut Findings, i: &str, problem: &Problem, step: &Step) {
     let Some(kick) = &step.kick else {
         return;
     };
-    let before = i.parse::<usize>().ok().and_then(|i| i.checked_sub(1));
+    let before = key::index(i).and_then(|i| i.checked_sub(1));
     let before = before.and_then(|i| problem.step.get(i));
     let count = before.and_then(|s| {
         let real = s.modes.as_ref().map(|m| m.count);
@@ -285,7 +286,7 @@ fn listed<T>(
 ) {
     let mut seen = BTreeSet::new();
     for (i, name) in list.iter().flatten().enumerate() {
-        let i = i.to_string();
+        let i = key::entry(i);
         let at = [key, &[&i]].concat();
         if !table.contains_key(name) {
             let what = key.last().copied().unwrap_or_default();
@@ -365,7 +366,7 @@ fn fatigue(problem: &Problem, findings: &mut Findings) {
         );
     }
     for (i, model) in fatigue.criteria.iter().enumerate() {
-        let number = i.to_string();
+        let number = key::entry(i);
         let place = [&key[..], &["criteria", &number]].concat();
         findings.faults(
             &[&place[..], &[model.kind()]].concat(),
@@ -392,7 +393,7 @@ fn output(problem: &Problem, findings: &mut Findings) {
         .sum();
     let mut before = 0.0;
     for (i, &time) in problem.output.times.iter().enumerate() {
-        let key = ["output", "times", &i.to_string()];
+        let key = ["output", "times", &key::entry(i)];
         if time <= before {
             let message = format!("{time} does not come after {before}");
             findings.add(&key, message, "times are positive and increase");

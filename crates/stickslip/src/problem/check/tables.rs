@@ -1,5 +1,6 @@
 //! Tables on their own: dimensions, parameters of models, what excludes what.
 
+use super::super::key;
 use super::super::reference::spin_matrix;
 use super::super::{FacetShape, Initial, Interface, Material, Problem, Select, SpaceKind};
 use super::findings::Findings;
@@ -13,6 +14,7 @@ use crate::contact::law::slip::SlipModel;
 use crate::contact::law::wear::{Feedback, WearModel, WearRate};
 use crate::contact::obstacle::ObstacleShape;
 use crate::math::{Mat3, determinant, normalize};
+use crate::number::digits;
 use crate::registry::Family;
 use crate::system::{Amplitude, AmplitudeError, Component};
 
@@ -152,9 +154,12 @@ fn materials(problem: &Problem, findings: &mut Findings) {
             continue;
         };
         let key = ["material", name, material.kind()];
-        let eigenvalue = error
-            .smallest_eigenvalue
-            .map(|value| format!("; the smallest eigenvalue of the stiffness is {value:.6e}"));
+        let eigenvalue = error.smallest_eigenvalue.map(|value| {
+            format!(
+                "; the smallest eigenvalue of the stiffness is {value}",
+                value = digits(value, 5)
+            )
+        });
         let message = error.message + &eigenvalue.unwrap_or_default();
         let mut key: Vec<&str> = key.to_vec();
         key.extend(error.parameter.split('.'));
@@ -206,7 +211,7 @@ fn constants(findings: &mut Findings, name: &str, material: &Material) {
         );
     }
     for (i, row) in material.at.iter().enumerate() {
-        let i = i.to_string();
+        let i = key::entry(i);
         let key = ["material", name, "at", &i];
         if before.is_some_and(|t| t >= row.temperature) {
             let message = format!(
@@ -274,7 +279,7 @@ fn select(problem: &Problem, findings: &mut Findings, name: &str, select: &Selec
 fn changes(problem: &Problem, findings: &mut Findings) {
     let mut now = problem.interface.clone();
     for (i, step) in problem.step.iter().enumerate() {
-        let i = i.to_string();
+        let i = key::entry(i);
         for (name, change) in &step.change {
             let Some(interface) = now.get_mut(name) else {
                 continue;
@@ -545,7 +550,7 @@ fn velocity(problem: &Problem, findings: &mut Findings, name: &str, interface: &
         let key = ["interface", name, "primary-velocity-table"];
         let dim = problem.model.space.dim();
         if let Some(i) = rows.iter().position(|row| row.len() != dim + 1) {
-            let row = i.to_string();
+            let row = key::entry(i);
             let key = [&key[..], &[&row]].concat();
             let message = format!(
                 "expected a time and {dim} components because the model is {}, found {} numbers",
@@ -652,7 +657,7 @@ fn times(findings: &mut Findings, key: &[&str], table: Vec<[f64; 2]>) {
         Ok(_) => {}
         Err(AmplitudeError::Empty) => findings.add(key, "the table has no rows", ""),
         Err(AmplitudeError::Row(i)) => {
-            let row = i.to_string();
+            let row = key::entry(i);
             let key = [key, &[&row]].concat();
             findings.add(
                 &key,

@@ -1,5 +1,6 @@
 //! Bodies that turn by any angle, and what the [table of capabilities](crate::model::capability) says of all bodies and laws.
 
+use super::super::key;
 use super::super::{Body, BodyRotation, Cycles, Problem, SpaceKind};
 use super::findings::Findings;
 use super::names;
@@ -73,7 +74,7 @@ fn uses(problem: &Problem) -> Vec<Use> {
         add(Feature::Axisymmetric, &[]);
     }
     for (i, step) in problem.step.iter().enumerate() {
-        let i = i.to_string();
+        let i = key::entry(i);
         let motion = step
             .dynamic
             .as_ref()

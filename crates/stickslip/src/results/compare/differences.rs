@@ -8,6 +8,7 @@ use crate::error::{Error, IoError};
 use crate::io::csv::{self, Table};
 use crate::io::{pvd, vtu};
 use crate::math::{Vec3, distance, norm, sub};
+use crate::number::figure;
 use crate::tolerance::{NEGLIGIBLE, SAME};
 
 /// What two folders of results have in common, and where they are farthest apart.
@@ -302,7 +303,12 @@ fn unlike([a, b]: [&[Vec3]; 2]) -> Option<String> {
         .map(|(x, y)| norm(sub(*x, *y)))
         .fold(0.0, f64::max);
     // Places are written with fewer digits.
-    (moved > NEGLIGIBLE * size).then(|| format!("points of the meshes lie up to {moved:.3e} apart"))
+    (moved > NEGLIGIBLE * size).then(|| {
+        format!(
+            "points of the meshes lie up to {moved} apart",
+            moved = figure(moved)
+        )
+    })
 }
 
 fn place(x: Vec3) -> String {

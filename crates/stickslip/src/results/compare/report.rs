@@ -1,3 +1,4 @@
+use crate::number::digits;
 use std::fmt;
 
 /// What became of all checks.
@@ -88,8 +89,8 @@ impl Comparison {
     /// Value found, expected, error and tolerance, as text. Errors are relative where the value is not zero.
     fn cells(&self) -> [String; 4] {
         let share = |number: f64, size: f64| match size > 0.0 {
-            true => format!("{:.2e} rel", number / size),
-            false => format!("{number:.2e} abs"),
+            true => format!("{} rel", digits(number / size, 3)),
+            false => format!("{number} abs", number = digits(number, 3)),
         };
         let error = self.error().unwrap_or(f64::NAN);
         match self.target {
@@ -128,7 +129,7 @@ fn shown(value: f64) -> String {
     if value.fract() == 0.0 && value.abs() < 1e6 {
         format!("{value}")
     } else {
-        format!("{value:.6e}")
+        format!("{value}", value = digits(value, 6))
     }
 }
 

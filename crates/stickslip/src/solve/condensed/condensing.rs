@@ -15,6 +15,7 @@ use crate::newton::condensed::{
     ArtificialSprings, Condensation, Cost, Effort, LoadPatterns, Plan, ReducedSystem,
 };
 use crate::newton::{Factors, describe};
+use crate::number::digits;
 use crate::solve::choice;
 use crate::solve::choice::cost_fits;
 use crate::solve::condensed::candidates;
@@ -256,8 +257,8 @@ pub fn give_condensing_up(
         frame,
         contact,
         &format!(
-            "{why}; the analysis goes on from {:.6e} with the sparse matrix",
-            frame.state.t
+            "{why}; the analysis goes on from {} with the sparse matrix",
+            digits(frame.state.t, 6)
         ),
     );
 }

@@ -264,7 +264,7 @@ pub const CONDITIONS: &[Defect] = &[
         "a step lets the bolt go",
         BOLT,
         &[("hold = true", "force = 0")],
-        Found(DoctorCause::LetGo, "step.1.pretension.left"),
+        Found(DoctorCause::LetGo, "step.2.pretension.left"),
     )
     .also(&[DoctorCause::FreeRigidMode, DoctorCause::SlidesAway]),
     defect(

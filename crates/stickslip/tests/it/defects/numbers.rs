@@ -263,13 +263,13 @@ pub const NUMBERS: &[Defect] = &[
         "a bolt of eight newtons",
         BOLT,
         &[("force = 8e3", "force = 8")],
-        Found(DoctorCause::LooseBolt, "step.0.pretension.left"),
+        Found(DoctorCause::LooseBolt, "step.1.pretension.left"),
     ),
     defect(
         "a bolt that pushes",
         BOLT,
         &[("force = 8e3", "force = -8e3")],
-        Found(DoctorCause::LooseBolt, "step.0.pretension.left"),
+        Found(DoctorCause::LooseBolt, "step.1.pretension.left"),
     ),
     defect(
         "an axle in millimetres",

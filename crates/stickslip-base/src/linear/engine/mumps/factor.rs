@@ -12,6 +12,7 @@ use super::root::Root;
 use super::words::WordReader;
 use crate::linear::engine::contract::{Analysed, FactorEffort, Interior};
 use crate::linear::{LinearError, Matrix, Numbers, Schur, Workspace};
+use crate::number::digits;
 
 /// Largest error, relative to the whole, of displacements that are known beforehand: what is worse comes of a singular matrix. Tuned.
 const LARGEST_KNOWN_ERROR: f64 = 1e-3;
@@ -113,7 +114,7 @@ impl Factor {
             low_rank.unwrap_or(0.0),
             memory.map_or(0, |bytes| (bytes / MIB).max(1)),
             u8::from(body.spread),
-            u8::from(by_ranks),
+            u8::from(by_ranks)
         ))?;
         let figures = answer.map_err(|words| match not_finite(&words) {
             Some(row) => LinearError::NotFinite {
@@ -179,8 +180,8 @@ impl Factor {
         Err(match self.body.options.low_rank {
             Some(eps) => LinearError::Engine {
                 message: format!(
-                    "MUMPS: with `low-rank = {eps:e}` solutions are wrong by {:.1e}",
-                    wrong.max(odd)
+                    "MUMPS: with `low-rank = {eps:e}` solutions are wrong by {}",
+                    digits(wrong.max(odd), 2)
                 ),
                 help: "a smaller `solver.engine.mumps.low-rank`, or none".into(),
             },

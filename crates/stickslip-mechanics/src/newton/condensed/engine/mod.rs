@@ -9,7 +9,7 @@ pub use multifrontal::Multifrontal;
 pub use mumps::Mumps;
 
 crate::family! {
-    /// Who factors the interiors of condensed bodies, and keeps the factors.
+    /// The linear solver that factors condensed bodies, and keeps the factors.
     EngineModel: "engine", dyn EngineChoice {
         /// The one that is built in.
         Multifrontal(Multifrontal) = "multifrontal",

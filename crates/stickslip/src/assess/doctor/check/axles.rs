@@ -9,6 +9,7 @@ use super::units::SIZE_RATIO;
 use crate::math::{Vec3, distance};
 use crate::model::definition::{Model, Reference};
 use crate::model::scene::Scene;
+use crate::number::figure;
 
 pub(super) fn check(scene: &Scene) -> Vec<Finding> {
     let model = scene.model;
@@ -51,10 +52,12 @@ fn far(scene: &Scene, reference: &Reference) -> Option<Finding> {
     let name = &reference.name;
     (nearest.is_finite() && size > 0.0 && nearest > SIZE_RATIO * size).then(|| {
         DoctorCause::MixedUnits.warning(format!(
-            "reference point {name} is {nearest:.3e} away from what goes with it, {:.0} times the size of that, {size:.3e}: is one in millimetres and the other in metres?",
-            nearest / size
+            "reference point {name} is {nearest} away from what goes with it, {:.0} times the size of that, {size}: is one in millimetres and the other in metres?",
+            nearest / size,
+            nearest = figure(nearest),
+            size = figure(size),
         ))
-        .blame(Suspect::key(format!("reference.{name}.point"), format!("{nearest:.3e} away")).at(centre))
+        .blame(Suspect::key(format!("reference.{name}.point"), format!("{nearest} away", nearest = figure(nearest))).at(centre))
         .advise("put the point where the axle is, in the unit of the meshes")
     })
 }

@@ -6,6 +6,7 @@ use super::super::suspect::Suspect;
 use crate::assess::view::View;
 use crate::body::couplings::{Coupling, Course, Draw, Pretension, Tie};
 use crate::model::definition::{Body, Model};
+use crate::number::{digits, figure};
 
 /// Strain of a bolt below which its force is none. Surfaces that are pressed together for the first time settle by 3 µm and more (VDI 2230, part 1), and a bolt of 3 m,
 /// longer than most, that is stretched by less than that has lost its force by then.
@@ -67,7 +68,7 @@ impl Bolt<'_> {
     }
 
     fn key(&self, step: usize) -> String {
-        format!("step.{step}.pretension.{}", self.name)
+        format!("step.{}.pretension.{}", step + 1, self.name)
     }
 
     /// A finding about what a step does with it.
@@ -95,9 +96,10 @@ impl Bolt<'_> {
                 self.finding(
                     step,
                     format!(
-                        "pretension {} has the {what} {least:.4e} in step {}: below zero it pushes the two sides of the bolt apart, and the joint opens",
+                        "pretension {} has the {what} {least} in step {}: below zero it pushes the two sides of the bolt apart, and the joint opens",
                         self.name,
-                        self.step_name(step)
+                        self.step_name(step),
+                        least = digits(least, 5),
                     ),
                 )
                 .advise("a bolt that is tightened has a positive force, whichever way its normal points")
@@ -122,11 +124,10 @@ impl Bolt<'_> {
             self.finding(
                 step,
                 format!(
-                    "pretension {} draws with {force:.4e} at most, and stretches the bolt by {strain:.1e} of its length, {:.3e} on a section of {:.3e}: surfaces settle by more than that, and nothing is held",
+                    "pretension {} draws with {force} at most, and stretches the bolt by {strain} of its length, {} on a section of {}: surfaces settle by more than that, and nothing is held",
                     self.name,
-                    force / self.pretension.area,
-                    self.pretension.area
-                ),
+                    figure(force / self.pretension.area),
+                    figure(self.pretension.area), force = digits(force, 5), strain = digits(strain, 2)),
             )
             .advise("check the unit of the force: is it meant in kilonewtons?")
         })
@@ -151,9 +152,10 @@ impl Bolt<'_> {
             if let Some(was) = before.filter(|_| value == 0.0 && !table) {
                 return Some(
                     DoctorCause::LetGo.note(format!(
-                        "step {} lets the bolt of pretension {} go: its value is 0 there after {was:.4e} before",
+                        "step {} lets the bolt of pretension {} go: its value is 0 there after {was} before",
                         self.step_name(step),
-                        self.name
+                        self.name,
+                        was = digits(was, 5),
                     ))
                     .blame(Suspect::key(self.key(step), "0"))
                     .advise(format!(

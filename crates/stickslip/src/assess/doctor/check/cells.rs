@@ -4,6 +4,7 @@ use super::super::finding::{DoctorCause, Finding};
 use super::super::suspect::{LocationKind, Suspect};
 use crate::math::{Vec3, add_scaled, determinant, distance, symmetric_eigen};
 use crate::model::definition::{Body, Model};
+use crate::number::digits;
 use crate::shape::{ElementKind, MAX_NODES};
 
 /// Bodies with slivers, one finding each.
@@ -28,8 +29,9 @@ fn sliver(model: &Model, body: &Body) -> Option<Finding> {
     found.sort_by(|a, b| a.0.total_cmp(&b.0));
     let (worst, id, kind, _) = *found.first()?;
     let mut finding = DoctorCause::CollapsedCell.warning(format!(
-        "body {}: cell {id} ({kind}) is a sliver, its extents 1 to {worst:.1e}: next to it all other stiffness is lost in rounding",
-        body.name
+        "body {}: cell {id} ({kind}) is a sliver, its extents 1 to {worst}: next to it all other stiffness is lost in rounding",
+        body.name,
+        worst = digits(worst, 2),
     ));
     for (flat, id, kind, x) in found {
         finding = finding.blame(
@@ -38,7 +40,7 @@ fn sliver(model: &Model, body: &Body) -> Option<Finding> {
                 name: body.name.clone(),
                 id: Some(id),
                 body: Some(body.name.clone()),
-                remark: format!("{kind}, extents 1 to {flat:.1e}"),
+                remark: format!("{kind}, extents 1 to {flat}", flat = digits(flat, 2)),
                 ..Suspect::default()
             }
             .at(x),

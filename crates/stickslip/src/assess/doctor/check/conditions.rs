@@ -9,6 +9,7 @@ use super::common::{forced, travel};
 use super::measured::Measured;
 use crate::assess::view::View;
 use crate::model::definition::{Model, Prescribed};
+use crate::number::digits;
 use crate::tolerance::SAME;
 
 pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
@@ -103,8 +104,11 @@ fn contradiction(
     let (point, component) = model.dofs.locate(entry.dof);
     let direction = ["x", "y", "z"][component];
     let mut finding = DoctorCause::ContradictingSupports.warning(format!(
-        "supports {first} and {second} prescribe different displacements in {direction} for one point: {was:.4e} and {value:.4e} at time {t:.4e}; \
-         the second counts"
+        "supports {first} and {second} prescribe different displacements in {direction} for one point: {was} and {value} at time {t}; \
+         the second counts",
+        was = digits(was, 5),
+        value = digits(value, 5),
+        t = digits(t, 5),
     ));
     if point < model.mesh.points.len() {
         finding = finding.blame(node(model, point, format!("direction {direction}")));

@@ -14,6 +14,7 @@ use crate::contact::law::normal::NormalModel;
 use crate::math::{Vec3, dot, norm, sub};
 use crate::model::definition::Step;
 use crate::model::scene::Scene;
+use crate::number::figure;
 use crate::tolerance::NEGLIGIBLE;
 
 pub(super) fn check(
@@ -67,7 +68,7 @@ pub(super) fn check(
                     .blame(Suspect::interface(name, "normal law with a kink"))
                     .blame(Suspect::key(
                         format!("interface.{name}.normal.tabular.table.{row}"),
-                        format!("penetration {:.3e}", law.table[row][0]),
+                        format!("penetration {}", figure(law.table[row][0])),
                     ))
                     .advise("check the units of this row, or smooth the table by more rows"),
             );

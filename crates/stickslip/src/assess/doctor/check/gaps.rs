@@ -9,6 +9,7 @@ use super::measured::Measured;
 use crate::assess::view::View;
 use crate::contact::interface::{InterfaceDefinition, Primary, Start};
 use crate::contact::surface::{Facet, turns};
+use crate::number::{digits, figure};
 use crate::tolerance::SAME;
 
 /// Overlap relative to the cell beneath that is a mistake. Tuned; it decides what is said, and no result.
@@ -38,17 +39,18 @@ pub(super) fn check(
     if smallest < -SHALLOW_OVERLAP * size && !(meant && smallest > -DEEP_OVERLAP * size) {
         let overlapping = gaps.iter().filter(|(_, g)| *g < 0.0).count();
         let finding = DoctorCause::InitialOverlap.warning(format!(
-            "interface {}: {overlapping} points overlap at the start, by up to {:.3e}, {:.2} of the cell there",
+            "interface {}: {overlapping} points overlap at the start, by up to {}, {:.2} of the cell there",
             interface.name,
-            -smallest,
+            figure(-smallest),
             -smallest / size
         ))
         .note_unless(smallest < -DEEP_OVERLAP * size);
         let deep = gaps
             .iter()
             .take_while(|(_, g)| *g < -SHALLOW_OVERLAP * size);
-        let finding = finding
-            .blame_all(deep.map(|&(i, gap)| secondary(interface, i, format!("gap {gap:.3e}"))));
+        let finding = finding.blame_all(
+            deep.map(|&(i, gap)| secondary(interface, i, format!("gap {gap}", gap = figure(gap)))),
+        );
         out.push(match interface.initial.start {
             Start::Ramp => finding
                 .advise("the fit is deeper than half a cell: take finer increments, or check the sizes of the bodies"),
@@ -65,10 +67,12 @@ pub(super) fn check(
     if smallest > 10.0 * reach && smallest > SHALLOW_OVERLAP * size && !forced_by_loads(view) {
         out.push(
             DoctorCause::InitialGap.warning(format!(
-                "interface {} cannot close: its smallest gap is {smallest:.3e}, and what is prescribed, supports and velocities, moves {reach:.3e} at most",
-                interface.name
+                "interface {} cannot close: its smallest gap is {smallest}, and what is prescribed, supports and velocities, moves {reach} at most",
+                interface.name,
+                smallest = figure(smallest),
+                reach = figure(reach),
             ))
-            .blame(secondary(interface, first, format!("gap {smallest:.3e}")))
+            .blame(secondary(interface, first, format!("gap {smallest}", smallest = figure(smallest))))
             .blame(Suspect::interface(&interface.name, "stays open"))
             .advise("move a body by the gap (`body.NAME.translate`), or check the units of its mesh"),
         );
@@ -110,9 +114,11 @@ fn faceted(interface: &InterfaceDefinition, gaps: &[(usize, f64)]) -> Option<Fin
     let part = 100.0 * off / typical;
     Some(
         DoctorCause::CoarseFacets.warning(format!(
-            "interface {name}: straight facets stand off the curved surfaces by {off:.2e}, {part:.0} % of the overlap at the start ({typical:.2e}): the pressure of the fit is uncertain by more than that"
+            "interface {name}: straight facets stand off the curved surfaces by {off}, {part:.0} % of the overlap at the start ({typical}): the pressure of the fit is uncertain by more than that",
+            off = digits(off, 3),
+            typical = digits(typical, 3),
         ))
-        .blame(Suspect::interface(name, format!("overlap {typical:.2e}, facets off by {off:.2e}")))
+        .blame(Suspect::interface(name, format!("overlap {typical}, facets off by {off}", typical = digits(typical, 3), off = digits(off, 3))))
         .advise("refine both surfaces, or use quadratic cells, until the facets are off by a twentieth of the overlap")
         .advise("divide both surfaces alike: then the facets are off by the same"),
     )
@@ -132,7 +138,10 @@ fn nothing_opposite(interface: &InterfaceDefinition, measured: &Measured) -> Fin
             "cannot close from here",
         ));
     if let Some((i, distance)) = near {
-        let remark = format!("the nearest facet is {distance:.3e} away, to the side");
+        let remark = format!(
+            "the nearest facet is {distance} away, to the side",
+            distance = figure(distance)
+        );
         finding = finding.blame(secondary(interface, i, remark));
     }
     finding

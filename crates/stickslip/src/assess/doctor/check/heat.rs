@@ -6,6 +6,7 @@ use super::super::suspect::Suspect;
 use super::common::times;
 use super::strains::LARGE_STRAIN;
 use crate::model::definition::Model;
+use crate::number::{digits, figure};
 
 pub(super) fn check(model: &Model) -> Vec<Finding> {
     let mut out = strained(model);
@@ -43,11 +44,10 @@ pub(super) fn strained(model: &Model) -> Vec<Finding> {
         let name = &owner.name;
         out.push(
             DoctorCause::LargeStrain.warning(format!(
-                "body {name} expands by a strain of {strain:.3e}: it is warmer by {rise:.4e} at time {t:.4e}, and its coefficient of thermal expansion is {:.3e}",
-                strain / rise.abs()
-            ))
+                "body {name} expands by a strain of {strain}: it is warmer by {rise} at time {t}, and its coefficient of thermal expansion is {}",
+                figure(strain / rise.abs()), strain = figure(strain), rise = digits(rise, 5), t = digits(t, 5)))
             .blame(Suspect::key(format!("body.{name}.material"), "its `expansion`"))
-            .blame(body(model, name, format!("strain {strain:.3e}")))
+            .blame(body(model, name, format!("strain {strain}", strain = figure(strain))))
             .advise("check the unit of `expansion`: that of steel is 12e-6 per degree, not 12")
             .advise("bodies are linear, with small strains, and results beyond are not to be trusted"),
         );
@@ -108,8 +108,9 @@ fn jumps(model: &Model) -> Vec<Finding> {
         let name = fields.find(moved).map_or("", |f| f.name.as_str());
         out.push(
             DoctorCause::SuddenChange.warning(format!(
-                "temperature {name} jumps by {jump:.4e} at the start of step {}, which is dynamic: heat takes far longer than sound, and bodies that expand at once ring like bells",
-                step.name
+                "temperature {name} jumps by {jump} at the start of step {}, which is dynamic: heat takes far longer than sound, and bodies that expand at once ring like bells",
+                step.name,
+                jump = digits(jump, 5),
             ))
             .blame(Suspect::key(format!("temperature.{name}"), "at once"))
             .blame(Suspect::key("step", format!("step {} is dynamic", step.name)))

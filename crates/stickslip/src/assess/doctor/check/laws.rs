@@ -7,6 +7,7 @@ use crate::contact::interface::InterfaceDefinition;
 use crate::contact::law::friction::{FrictionLaw, FrictionPoint};
 use crate::contact::law::normal::NormalLaw;
 use crate::model::scene::Scene;
+use crate::number::{digits, figure};
 use crate::registry::Family;
 
 /// Gaps and pressures at which functions are tried, relative to the height of the cells beneath and to their modulus.
@@ -58,11 +59,13 @@ fn stiffness(interface: &InterfaceDefinition, largest: f64) -> Option<Finding> {
     if depth > 10.0 * largest && largest > 0.0 {
         return Some(new(
             format!(
-                "interface {name}: the normal law is far too soft: at a pressure that strains the bodies by a thousandth, {pressure:.3e}, surfaces penetrate by \
-                 {depth:.3e}, {:.1} times the largest body",
-                depth / largest
+                "interface {name}: the normal law is far too soft: at a pressure that strains the bodies by a thousandth, {pressure}, surfaces penetrate by \
+                 {depth}, {:.1} times the largest body",
+                depth / largest,
+                pressure = figure(pressure),
+                depth = figure(depth)
             ),
-            format!("penetration {depth:.3e}"),
+            format!("penetration {depth}", depth = figure(depth)),
         ));
     }
     let ratio = stiffness / beneath;
@@ -71,10 +74,12 @@ fn stiffness(interface: &InterfaceDefinition, largest: f64) -> Option<Finding> {
     (ratio > 1e10).then(|| {
         new(
             format!(
-                "interface {name}: the normal law is {ratio:.1e} times as stiff as the cells beneath at a pressure of {pressure:.3e}: rounding makes such a law \
-                 worthless"
+                "interface {name}: the normal law is {ratio} times as stiff as the cells beneath at a pressure of {pressure}: rounding makes such a law \
+                 worthless",
+                ratio = digits(ratio, 2),
+                pressure = figure(pressure),
             ),
-            format!("stiffness {stiffness:.3e}"),
+            format!("stiffness {stiffness}", stiffness = figure(stiffness)),
         )
         .advise("surfaces that do not penetrate are `normal.unilateral = {}`")
     })
@@ -97,10 +102,11 @@ fn function(interface: &InterfaceDefinition) -> Option<Finding> {
             if limit.value.is_nan() || limit.value < 0.0 {
                 return Some(new(
                     format!(
-                        "interface {name}: the function of friction gives the limit {:.4e} at a pressure of {pressure:.4e}; a limit is not negative",
-                        limit.value
+                        "interface {name}: the function of friction gives the limit {} at a pressure of {pressure}; a limit is not negative",
+                        digits(limit.value, 5),
+                        pressure = digits(pressure, 5)
                     ),
-                    format!("limit {:.4e}", limit.value),
+                    format!("limit {}", digits(limit.value, 5)),
                 ));
             }
         }
@@ -112,9 +118,11 @@ fn function(interface: &InterfaceDefinition) -> Option<Finding> {
         if inside.is_nan() || outside.is_nan() || inside < 0.0 || outside < 0.0 {
             return Some(new(
                 format!(
-                    "interface {name}: the function of pressure gives {inside:.4e} at a gap of {:.4e} and {outside:.4e} at {:.4e}; pressures are not negative",
-                    -part * size,
-                    part * size
+                    "interface {name}: the function of pressure gives {inside} at a gap of {} and {outside} at {}; pressures are not negative",
+                    digits(-part * size, 5),
+                    digits(part * size, 5),
+                    inside = digits(inside, 5),
+                    outside = digits(outside, 5)
                 ),
                 "pressure that is none".into(),
             ));
@@ -122,10 +130,12 @@ fn function(interface: &InterfaceDefinition) -> Option<Finding> {
         if outside > inside {
             return Some(new(
                 format!(
-                    "interface {name}: the function of pressure grows with the gap, from {inside:.4e} at {:.4e} to {outside:.4e} at {:.4e}; gaps are positive \
+                    "interface {name}: the function of pressure grows with the gap, from {inside} at {} to {outside} at {}; gaps are positive \
                      where surfaces are apart",
-                    -part * size,
-                    part * size
+                    digits(-part * size, 5),
+                    digits(part * size, 5),
+                    inside = digits(inside, 5),
+                    outside = digits(outside, 5)
                 ),
                 "pressure that grows with the gap".into(),
             ));

@@ -9,6 +9,7 @@ use super::measured::Measured;
 use crate::assess::view::View;
 use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::math::dot;
+use crate::number::figure;
 
 /// Part of the points of a body inside an obstacle from which the obstacle is inside out. Tuned; it decides what is said, and no result.
 const INSIDE_OUT: f64 = 0.5;
@@ -93,12 +94,11 @@ pub(super) fn through(
     let name = &interface.name;
     Some(
         DoctorCause::NormalsNotOpposed.warning(format!(
-            "interface {name}: its secondary and its primary are surfaces of the same body, {ours}, and the body lies between them: {} points look away from what lies {:.3e} behind them, and the two cannot touch",
+            "interface {name}: its secondary and its primary are surfaces of the same body, {ours}, and the body lies between them: {} points look away from what lies {} behind them, and the two cannot touch",
             behind.len(),
-            -gap
-        ))
+            figure(-gap)))
         .blame(Suspect::interface(name, "both sides on one body"))
-        .blame(secondary(interface, i, format!("the other side is {:.3e} behind it, through the body", -gap)))
+        .blame(secondary(interface, i, format!("the other side is {} behind it, through the body", figure(-gap))))
         .advise("name the surface of the other body that this one meets; a body that meets itself needs two surfaces that face each other"),
     )
 }

@@ -8,6 +8,7 @@ use super::strains::LARGE_STRAIN;
 use crate::contact::interface::InterfaceDefinition;
 use crate::math::distance;
 use crate::model::definition::Model;
+use crate::number::{digits, figure};
 
 pub(super) fn check(model: &Model, interface: &InterfaceDefinition) -> Option<Finding> {
     if interface.relief.is_empty() {
@@ -25,14 +26,15 @@ fn aliased(model: &Model, interface: &InterfaceDefinition) -> Option<Finding> {
     // A wave needs two points at the least to be told from a longer one (Nyquist).
     (shortest < 2.0 * apart).then(|| {
         DoctorCause::UnresolvedRoughness.warning(format!(
-            "interface {name}: the shortest wave of its roughness is {shortest:.3e} long and its points are {apart:.3e} apart: what they show is another surface, with longer waves or none"
+            "interface {name}: the shortest wave of its roughness is {shortest} long and its points are {apart} apart: what they show is another surface, with longer waves or none",
+            shortest = figure(shortest),
+            apart = figure(apart),
         ))
-        .blame(Suspect::key(format!("interface.{name}.roughness"), format!("waves of {shortest:.3e}")))
-        .blame(Suspect::interface(name, format!("points {apart:.3e} apart")))
+        .blame(Suspect::key(format!("interface.{name}.roughness"), format!("waves of {shortest}", shortest = figure(shortest))))
+        .blame(Suspect::interface(name, format!("points {apart} apart", apart = figure(apart))))
         .advise(format!(
-            "refine the secondary until a wave has several points, {:.1e} apart and less, or leave short waves out",
-            0.25 * shortest
-        ))
+            "refine the secondary until a wave has several points, {} apart and less, or leave short waves out",
+            digits(0.25 * shortest, 2)))
         .advise("what is too short for a mesh is a law of contact: `normal.micro-contact`")
     })
 }

@@ -4,6 +4,7 @@ use super::super::finding::{DoctorCause, Finding};
 use super::super::suspect::Suspect;
 use crate::model::definition::Model;
 use crate::model::scene::Scene;
+use crate::number::digits;
 use crate::system::{Amplitude, Course, Schedule};
 
 /// Part of its largest value that a factor changes by when it jumps. Tuned; it decides what is said, and no result.
@@ -220,12 +221,11 @@ fn jump(scene: &Scene, acting: &Acting) -> Option<Finding> {
         let Acting { what, name, .. } = acting;
         return Some(
             DoctorCause::SuddenChange.warning(format!(
-                "the amplitude of {what} {name} jumps from {} to {} at time {:.4e}: one increment takes all of it, however small increments are, and \
+                "the amplitude of {what} {name} jumps from {} to {} at time {}: one increment takes all of it, however small increments are, and \
                  friction depends on the way there",
-                w[0][1], w[1][1], w[1][0]
-            ))
+                w[0][1], w[1][1], digits(w[1][0], 5)))
             .note_unless(rubs)
-            .blame(acting.amplitude(format!("time {:.4e}", w[1][0])))
+            .blame(acting.amplitude(format!("time {}", digits(w[1][0], 5))))
             .advise("spread the change over a part of the step, or make the step dynamic"),
         );
     }

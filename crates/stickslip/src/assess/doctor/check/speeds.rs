@@ -10,6 +10,7 @@ use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::math::norm;
 use crate::model::definition::{Body, Model};
 use crate::model::scene::Scene;
+use crate::number::{digits, figure};
 use crate::tolerance::NEGLIGIBLE;
 
 /// Velocity over that of sound beyond which strains are not small: an impact strains by half of it.
@@ -37,14 +38,16 @@ pub(super) fn fast(scene: &Scene) -> Vec<Finding> {
         if speed > LARGEST_MACH * sound {
             out.push(
                 DoctorCause::TooFast.warning(format!(
-                    "{what} {name} moves at {speed:.4e}, {:.3} times the speed of sound of body {}, {sound:.4e}: an impact at that speed strains it by \
+                    "{what} {name} moves at {speed}, {:.3} times the speed of sound of body {}, {sound}: an impact at that speed strains it by \
                      {:.2}, and strains have to be small",
                     speed / sound,
                     slowest.name,
-                    0.5 * speed / sound
+                    0.5 * speed / sound,
+                    speed = digits(speed, 5),
+                    sound = digits(sound, 5),
                 ))
-                .blame(Suspect::key(format!("{what}.{name}"), format!("velocity {speed:.4e}")))
-                .blame(body(model, &slowest.name, format!("speed of sound {sound:.4e}")))
+                .blame(Suspect::key(format!("{what}.{name}"), format!("velocity {speed}", speed = digits(speed, 5))))
+                .blame(body(model, &slowest.name, format!("speed of sound {sound}", sound = digits(sound, 5))))
                 .advise("check the units of velocity, of time, of modulus and of density"),
             );
         }
@@ -152,12 +155,13 @@ pub(super) fn apart(
     };
     let finding = DoctorCause::MovesApart
         .warning(format!(
-            "interface {} never closes: {who}, by {:.3e}, and nothing brings it back",
-            interface.name, -way.least
+            "interface {} never closes: {who}, by {}, and nothing brings it back",
+            interface.name,
+            figure(-way.least)
         ))
         .blame(Suspect::interface(
             &interface.name,
-            format!("gap {gap:.3e} at the start"),
+            format!("gap {gap} at the start", gap = figure(gap)),
         ));
     let sides = sides.iter().flatten();
     let sides = sides.map(|&b| body(model, &model.bodies[b].name, ""));

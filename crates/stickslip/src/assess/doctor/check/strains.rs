@@ -10,6 +10,7 @@ use crate::contact::interface::InterfaceDefinition;
 use crate::math::sub;
 use crate::model::definition::{Body, Model};
 use crate::model::scene::Scene;
+use crate::number::figure;
 
 /// Strain of a whole body from which nothing of a linear body can be trusted; loads that are spread over it strain it by half of what is
 /// counted. Tuned; it decides what is said, and no result.
@@ -63,11 +64,10 @@ fn pulled(model: &Model, body: &Body) -> Option<Finding> {
                     let (first, second) = (&r.name, &s.name);
                     return Some(
                         finding(format!(
-                            "supports {first} and {second} strain body {} by {strain:.2}: their displacements in {} differ by {:.3e} over {length:.3e}",
+                            "supports {first} and {second} strain body {} by {strain:.2}: their displacements in {} differ by {} over {length}",
                             body.name,
                             ["x", "y", "z"][*c],
-                            strain * length
-                        ))
+                            figure(strain * length), length = figure(length)))
                         .blame(whole(model, &body.name, format!("strain {strain:.2}")))
                         .blame(Suspect::key(format!("support.{first}"), ""))
                         .blame(Suspect::key(format!("support.{second}"), "")),
@@ -111,12 +111,11 @@ fn loaded(model: &Model, body: &Body) -> Option<Finding> {
             if strain > LARGE_STRAIN && strain.is_finite() {
                 return Some(
                     finding(format!(
-                        "load {} strains body {} by about {strain:.2}: {:.3e} on a section of {:.3e} with a modulus of {modulus:.3e}",
+                        "load {} strains body {} by about {strain:.2}: {} on a section of {} with a modulus of {modulus}",
                         load.name,
                         body.name,
-                        force.abs(),
-                        section(c)
-                    ))
+                        figure(force.abs()),
+                        figure(section(c)), modulus = figure(modulus)))
                     .blame(whole(model, &body.name, format!("strain {strain:.2}")))
                     .blame(Suspect::key(format!("load.{}", load.name), "")),
                 );
@@ -157,10 +156,11 @@ pub(super) fn pressed(
         return None;
     }
     let found = finding(format!(
-        "interface {}: what is prescribed presses its sides {depth:.3e} into each other, {strain:.2} of the bodies behind them",
-        interface.name
+        "interface {}: what is prescribed presses its sides {depth} into each other, {strain:.2} of the bodies behind them",
+        interface.name,
+        depth = figure(depth),
     ))
-    .blame(Suspect::interface(&interface.name, format!("pressed by {depth:.3e}")));
+    .blame(Suspect::interface(&interface.name, format!("pressed by {depth}", depth = figure(depth))));
     let strained = |b: &&Body| whole(model, &b.name, format!("strain about {strain:.2}"));
     Some(found.blame_all(elastic.iter().map(strained)))
 }

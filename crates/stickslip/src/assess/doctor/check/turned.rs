@@ -14,6 +14,7 @@ use crate::model::definition::{Body, Model};
 use crate::model::limits::GateMode;
 use crate::model::rigid::anchors;
 use crate::model::scene::Scene;
+use crate::number::digits;
 
 /// A rotation that a support prescribes.
 struct Turn<'a> {
@@ -200,13 +201,15 @@ fn finding(scene: &Scene, turn: &Turn, missed: Option<(&str, [f64; 2])>) -> Find
     };
     let said = match missed {
         None => format!(
-            "and small rotations go to {:.2} rad (`quality.rotation`): bodies grow by half the square of the angle, here by {:.1e}",
+            "and small rotations go to {:.2} rad (`quality.rotation`): bodies grow by half the square of the angle, here by {}",
             model.reports.quality.rotation,
-            0.5 * angle * angle
+            digits(0.5 * angle * angle, 2)
         ),
         Some((interface, [missed, room])) => format!(
-            "and rotations are small ones: at interface {interface} its surface misses {missed:.2e} of where it should be, {:.2} times the gap or interference there of {room:.2e}",
-            missed / room
+            "and rotations are small ones: at interface {interface} its surface misses {missed} of where it should be, {:.2} times the gap or interference there of {room}",
+            missed / room,
+            missed = digits(missed, 3),
+            room = digits(room, 3)
         ),
     };
     let mut found = DoctorCause::LargeRotation

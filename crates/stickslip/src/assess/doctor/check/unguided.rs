@@ -9,6 +9,7 @@ use super::driven::{meets_others, pair};
 use crate::assess::view::View;
 use crate::contact::interface::InterfaceDefinition;
 use crate::math::{dot, norm, scale, sub};
+use crate::number::figure;
 
 /// A body under dead loads that roll it off what it stands on. When it rolls by an angle `θ` over a contact with the curvature `κ` between the surfaces, a load at the height `h` above the
 /// contact sinks by `(h - 1/κ) θ²/2`: where that is positive it is at rest in the middle only, and any push brings it down.
@@ -65,10 +66,9 @@ pub(super) fn check(view: &View, interface: &InterfaceDefinition) -> Option<Find
         let name = &interface.name;
         return Some(
             DoctorCause::FreeRigidMode.warning(format!(
-                "interface {name}: nothing guides body {}, which stands like a ball on a ball: the loads press at a height of {height:.3e} above the contact, more than the radius of {:.3e} between the surfaces, and at the slightest push it rolls off",
+                "interface {name}: nothing guides body {}, which stands like a ball on a ball: the loads press at a height of {height} above the contact, more than the radius of {} between the surfaces, and at the slightest push it rolls off",
                 owner.name,
-                1.0 / curvature
-            ))
+                figure(1.0 / curvature), height = figure(height)))
             .blame(body(model, &owner.name, "held beside its contact by nothing"))
             .blame(Suspect::interface(name, "the only thing that holds it"))
             .advise("support its motion along the contact where it is guided in truth: `[support.NAME]` of the points that are loaded, across the load"),

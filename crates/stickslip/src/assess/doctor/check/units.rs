@@ -10,6 +10,7 @@ use super::common::diameter;
 use crate::body::Space;
 use crate::model::Body;
 use crate::model::definition::Model;
+use crate::number::{digits, figure};
 
 /// Ratios between the units of length, stress and their squares.
 const FACTORS: [f64; 3] = [1e3, 1e6, 1e9];
@@ -113,10 +114,13 @@ fn moduli(model: &Model, all: &[Numbers]) -> Option<Finding> {
     let factor = FACTORS
         .into_iter()
         .find(|f| ratio > f / NEAR_RATIO && ratio < f * NEAR_RATIO)?;
-    let remark = |n: &Numbers| format!("modulus {:.3e}", n.modulus);
+    let remark = |n: &Numbers| format!("modulus {}", figure(n.modulus));
     let found = finding(format!(
-        "the moduli of bodies {} and {} differ by a factor {ratio:.3e}, near the ratio {factor:.0e} of two units",
-        hard.body.name, soft.body.name
+        "the moduli of bodies {} and {} differ by a factor {ratio}, near the ratio {factor} of two units",
+        hard.body.name,
+        soft.body.name,
+        ratio = figure(ratio),
+        factor = digits(factor, 1)
     ));
     // Metal on plastic is a common pair and differs by a thousand as well; plastics are light.
     let alike = hard.density > 0.0 && soft.density > 0.0 && {
@@ -137,11 +141,13 @@ fn densities(model: &Model, all: &[Numbers]) -> Option<Finding> {
     let ratio = heavy.density / light.density;
     let near = |f: &f64| ratio > f / NEAR_RATIO && ratio < f * NEAR_RATIO;
     let factor = FACTORS.into_iter().chain([1e12]).find(near)?;
-    let remark = |n: &Numbers| format!("density {:.3e}", n.density);
+    let remark = |n: &Numbers| format!("density {}", figure(n.density));
     Some(
         finding(format!(
-            "the densities of bodies {} and {} differ by a factor {ratio:.3e}, near the ratio {factor:.0e} of two units",
-            heavy.body.name, light.body.name
+            "the densities of bodies {} and {} differ by a factor {ratio}, near the ratio {factor} of two units",
+            heavy.body.name, light.body.name,
+            ratio = figure(ratio),
+            factor = digits(factor, 1),
         ))
         .blame(body(model, &heavy.body.name, remark(heavy)))
         .blame(body(model, &light.body.name, remark(light))),
@@ -160,7 +166,9 @@ fn thickness(model: &Model, all: &[Numbers]) -> Option<Finding> {
     let far = !(2e-4..=50.0).contains(&ratio) && thickness != 1.0;
     far.then(|| {
         finding(format!(
-            "the thickness of {thickness} is {ratio:.3e} times the size of the largest body, {largest:.3e}: is one in millimetres and the other in metres?"
+            "the thickness of {thickness} is {ratio} times the size of the largest body, {largest}: is one in millimetres and the other in metres?",
+            ratio = figure(ratio),
+            largest = figure(largest),
         ))
         .blame(Suspect::key("model.thickness", format!("{thickness}")))
     })
@@ -174,7 +182,7 @@ fn sizes(model: &Model, all: &[Numbers]) -> Option<Finding> {
     if ratio.is_nan() || ratio < SIZE_RATIO {
         return None;
     }
-    let remark = |n: &Numbers| format!("size {:.3e}", n.size);
+    let remark = |n: &Numbers| format!("size {}", figure(n.size));
     Some(
         finding(format!(
             "body {} is {ratio:.0} times as large as body {}: is one mesh in millimetres and the other in metres?",
@@ -198,10 +206,10 @@ fn alone(model: &Model, n: &Numbers, heavy: bool) -> Option<Finding> {
     if !SYSTEMS.iter().any(plausible) {
         return Some(blame(
             finding(format!(
-                "body {name}: a modulus of {:.3e} is that of no solid, neither in Pa nor in MPa nor in psi",
-                n.modulus
+                "body {name}: a modulus of {} is that of no solid, neither in Pa nor in MPa nor in psi",
+                figure(n.modulus)
             )),
-            format!("modulus {:.3e}", n.modulus),
+            format!("modulus {}", figure(n.modulus)),
         ));
     }
     if heavy && n.density > 0.0 {
@@ -217,10 +225,16 @@ fn alone(model: &Model, n: &Numbers, heavy: bool) -> Option<Finding> {
         }) {
             return Some(blame(
                 finding(format!(
-                    "body {name}: a modulus of {:.3e} and a density of {:.3e} with a speed of sound of {speed:.3e} are those of no solid, in kg/m³, t/mm³ or lbf s²/in⁴",
-                    n.modulus, n.density
+                    "body {name}: a modulus of {} and a density of {} with a speed of sound of {speed} are those of no solid, in kg/m³, t/mm³ or lbf s²/in⁴",
+                    figure(n.modulus),
+                    figure(n.density),
+                    speed = figure(speed)
                 )),
-                format!("modulus {:.3e}, density {:.3e}", n.modulus, n.density),
+                format!(
+                    "modulus {}, density {}",
+                    figure(n.modulus),
+                    figure(n.density)
+                ),
             ));
         }
     }
@@ -228,10 +242,11 @@ fn alone(model: &Model, n: &Numbers, heavy: bool) -> Option<Finding> {
     if n.modulus > HARD_MODULUS && si && !mm && n.size > 20.0 {
         return Some(blame(
             finding(format!(
-                "body {name} is {:.3e} large and its modulus {:.3e}: is the mesh in millimetres and the modulus in Pa?",
-                n.size, n.modulus
+                "body {name} is {} large and its modulus {}: is the mesh in millimetres and the modulus in Pa?",
+                figure(n.size),
+                figure(n.modulus)
             )),
-            format!("size {:.3e}, modulus {:.3e}", n.size, n.modulus),
+            format!("size {}, modulus {}", figure(n.size), figure(n.modulus)),
         ));
     }
     let metal = within(1e6 * n.modulus, [1e10, MODULI[1]]);
@@ -239,10 +254,11 @@ fn alone(model: &Model, n: &Numbers, heavy: bool) -> Option<Finding> {
     if metal && n.size < 0.1 {
         return Some(blame(
             finding(format!(
-                "body {name} is {:.3e} large and its modulus {:.3e}: is the mesh in metres and the modulus in MPa?",
-                n.size, n.modulus
+                "body {name} is {} large and its modulus {}: is the mesh in metres and the modulus in MPa?",
+                figure(n.size),
+                figure(n.modulus)
             )),
-            format!("size {:.3e}, modulus {:.3e}", n.size, n.modulus),
+            format!("size {}, modulus {}", figure(n.size), figure(n.modulus)),
         ));
     }
     None

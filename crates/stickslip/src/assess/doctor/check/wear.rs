@@ -11,6 +11,7 @@ use crate::contact::look;
 use crate::model::cycling::Jump;
 use crate::model::definition::Model;
 use crate::model::scene::Scene;
+use crate::number::figure;
 use crate::registry::Family;
 
 /// Modulus over hardness of the softest metals: lead, tin and annealed aluminium have 400 to 1000, steels 50 to 200, polymers and ceramics 10 to 40.
@@ -42,12 +43,11 @@ fn too_fast(model: &Model, interface: &InterfaceDefinition) -> Option<Finding> {
         (part > 1.0 && part.is_finite()).then(|| {
             let kind = interface.laws.wear.kind();
             DoctorCause::LawOutOfRange.warning(format!(
-                "interface {}: its {side}, body {name}, wears by {rate:.3e} of depth over pressure and path. Times its hardness that is Archard's dimensionless coefficient, which is a probability: with a modulus of {young:.3e} the rate of no surface is above {:.3e}",
+                "interface {}: its {side}, body {name}, wears by {rate} of depth over pressure and path. Times its hardness that is Archard's dimensionless coefficient, which is a probability: with a modulus of {young} the rate of no surface is above {}",
                 interface.name,
-                SOFTEST_METAL / young
-            ))
-            .blame(Suspect::key(format!("interface.{}.wear.{kind}", interface.name), format!("{rate:.3e}")))
-            .blame(super::super::places::body(model, &name, format!("modulus {young:.3e}")))
+                figure(SOFTEST_METAL / young), rate = figure(rate), young = figure(young)))
+            .blame(Suspect::key(format!("interface.{}.wear.{kind}", interface.name), format!("{rate}", rate = figure(rate))))
+            .blame(super::super::places::body(model, &name, format!("modulus {young}", young = figure(young))))
             .advise("a coefficient without unit, 1e-7 to 1e-2, is that of `wear.archard-hardness`, with the hardness beside it; that of `wear.archard` is divided by the hardness: 1e-17 to 1e-12 per pascal for metals")
             .advise("mm³/(N m), as tables have it, is 1e-9 per pascal, and 1e-3 per megapascal")
         })
@@ -77,15 +77,16 @@ pub(super) fn check(view: &View, interface: &InterfaceDefinition) -> Option<Find
     let jumps: Vec<String> = jumps
         .map(|(step, n)| {
             format!(
-                ", in step {step}, where each stands for {n} cycles, by {:.3e}",
-                limit / n as f64
+                ", in step {step}, where each stands for {n} cycles, by {}",
+                figure(limit / n as f64)
             )
         })
         .collect();
     Some(
         DoctorCause::ExplicitWear.note(format!(
-            "interface {name}: wear is explicit, and stable as long as no increment slides by more than about {limit:.3e}{}",
-            jumps.concat()
+            "interface {name}: wear is explicit, and stable as long as no increment slides by more than about {limit}{}",
+            jumps.concat(),
+            limit = figure(limit),
         ))
         .blame(Suspect::key(format!("interface.{name}.wear-feedback"), ""))
         .advise("`wear-feedback = \"implicit\"`, the default, has no such limit"),

@@ -14,6 +14,7 @@ use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::math::{Vec3, distance};
 use crate::model::definition::{Model, Support};
 use crate::model::scene::Scene;
+use crate::number::figure;
 use crate::system::Motion;
 use crate::tolerance::SAME;
 
@@ -112,12 +113,12 @@ impl MissingInterface {
             let found = match (pair.other, driven) {
                 (_, Some(driven)) => Some((
                     Severity::Warning,
-                    format!("{names} come to overlap by {:.3e} by what supports and obstacles prescribe, and no interface joins them: they pass through each other", driven.depth),
+                    format!("{names} come to overlap by {} by what supports and obstacles prescribe, and no interface joins them: they pass through each other", figure(driven.depth)),
                     driven.at,
                 )),
                 (Other::Body(_), _) if deep => Some((
                     Severity::Warning,
-                    format!("{names} overlap by {:.3e} at the start, and no interface joins them: they pass through each other", pair.start.depth),
+                    format!("{names} overlap by {} at the start, and no interface joins them: they pass through each other", figure(pair.start.depth)),
                     pair.start.at,
                 )),
                 // An obstacle may reach farther than it is meant to.
@@ -199,9 +200,9 @@ impl MissingInterface {
             }
             if worse(&placed, &found, pair, moved) {
                 let message = format!(
-                    "{} have come to overlap by {:.3e}, and no interface joins them: they pass through each other",
+                    "{} have come to overlap by {}, and no interface joins them: they pass through each other",
                     names(scene, pair),
-                    found.depth
+                    figure(found.depth)
                 );
                 out.push(finding(scene, pair, Severity::Warning, message).blame_at(found.at));
                 self.pairs[i].said = true;
