@@ -22,6 +22,11 @@ impl Sheet {
         array.filter(|a| a.components == components)
     }
 
+    /// Whether the file has this field.
+    pub fn has(&self, name: &str) -> bool {
+        self.grid.points.arrays.contains_key(name)
+    }
+
     /// A field of one number a point; nothing where the file has none.
     pub fn numbers(&self, name: &str) -> &[f64] {
         self.array(name, 1).map_or(&[], |a| &a.values)
@@ -67,15 +72,18 @@ impl Sheet {
         self.grid.types.iter().all(|t| *t <= 3) && self.grid.types.contains(&3)
     }
 
-    /// The points that press.
+    /// The points that press: with more than a thousandth of the largest pressure, or of what is ten times the usual one, so that a single node does not count alone.
     pub fn pressing(&self) -> Vec<usize> {
-        let most = self.peak().map_or(f64::INFINITY, |(_, most)| most);
-        let pressures = self.numbers("CPRESS").iter().enumerate();
-        pressures
-            // Part of the largest pressure that counts as pressing.
-            .filter(|(_, p)| **p > 1e-3 * most)
-            .map(|(i, _)| i)
-            .collect()
+        let pressures = self.numbers("CPRESS");
+        let mut all: Vec<f64> = pressures.iter().copied().filter(|p| *p > 0.0).collect();
+        all.sort_by(f64::total_cmp);
+        let usual = all.get(all.len() / 2).copied().unwrap_or(f64::INFINITY);
+        let most = all.last().map_or(usual, |most| most.min(10.0 * usual));
+        let pressing = pressures
+            .iter()
+            .enumerate()
+            .filter(|(_, p)| **p > 1e-3 * most);
+        pressing.map(|(i, _)| i).collect()
     }
 
     /// The largest relative motion of the sides `[length]` that displacements taken larger would show: along the normal, which opens or closes gaps, and across.

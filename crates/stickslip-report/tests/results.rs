@@ -6,7 +6,7 @@ use stickslip::io::write_atomically;
 use stickslip::problem::Problem;
 use stickslip::results::{Claim, Observer, ResultFiles};
 use stickslip::run::Simulation;
-use stickslip_report::plot::{self, Along, Picture, View, When, Zoom};
+use stickslip_report::plot::{self, Along, Apart, Colours, Facts, Picture, View, When, Zoom};
 use stickslip_report::{Limits, Results, page, report};
 
 const EVIL: &str = "</script><b id=\"x\">&'`<!--";
@@ -409,7 +409,7 @@ fn pictures_are_made_of_every_field_and_time() {
                 ..small.clone()
             },
             Picture {
-                mirror: "x=-0.5".parse().ok(),
+                mirrors: vec!["x=-0.5".parse().unwrap()],
                 ..small.clone()
             },
             Picture {
@@ -421,7 +421,7 @@ fn pictures_are_made_of_every_field_and_time() {
                 ..small.clone()
             },
         ] {
-            assert_ne!(bytes(small.clone()), bytes(change.clone()), "{change:?}");
+            assert!(bytes(small.clone()) != bytes(change.clone()), "{change:?}");
         }
         let cut = Picture {
             cut: "x=-1".parse().ok(),
@@ -473,6 +473,89 @@ fn pictures_are_made_of_every_field_and_time() {
         let error = picture(Some(Path::new("x.jpg")), small).unwrap_err();
         assert!(error.contains(".png or .svg"), "{error}");
     }
+}
+
+fn facts(folder: &Folder, wanted: &Picture) -> Facts {
+    let mut all = plot::facts(&folder.0, wanted).unwrap();
+    assert_eq!(all.len(), 1);
+    all.remove(0)
+}
+
+#[test]
+fn contact_between_bodies_in_space_is_seen() {
+    let folder = Folder::new("apart");
+    run(&stacked("solid", "Two blocks", "b"), &folder.0);
+    let of = |wanted: Picture| facts(&folder, &wanted);
+    let seen = of(Picture::default());
+    assert_eq!(seen.field.as_deref(), Some("CPRESS"));
+    assert_eq!(seen.bodies, ["a", "b"]);
+    assert!(seen.in_view >= Some(0.95), "{seen:?}");
+    // Along the normal, the upper body upwards.
+    assert_eq!(seen.offsets[0], [0.0; 3]);
+    let [x, y, z] = seen.offsets[1];
+    assert!(z > 0.1 && x.hypot(y) < 1e-3 * z, "{seen:?}");
+    let there = of(Picture {
+        apart: Apart::By(0.0),
+        ..Picture::default()
+    });
+    assert_eq!(
+        (there.offsets, there.in_view),
+        (vec![[0.0; 3]; 2], Some(0.0))
+    );
+    let from_above = of(Picture {
+        view: Some(View::Along(2, 1.0)),
+        ..Picture::default()
+    });
+    // Nothing comes apart on paper from there: the body whose face looks up is shown.
+    assert_eq!(
+        (from_above.bodies, from_above.in_view),
+        (vec!["a".into()], Some(1.0))
+    );
+    for name in ["a", "b"] {
+        let one = of(Picture {
+            bodies: vec![name.into()],
+            ..Picture::default()
+        });
+        assert_eq!(
+            (one.bodies, one.in_view),
+            (vec![name.to_string()], Some(1.0))
+        );
+    }
+    let stress = of(Picture {
+        field: Some("MISES".into()),
+        ..Picture::default()
+    });
+    assert_eq!((stress.offsets, stress.in_view), (vec![[0.0; 3]; 2], None));
+}
+
+#[test]
+fn colours_are_those_that_are_asked_for() {
+    let folder = Folder::new("colours");
+    run(&stacked("plane-strain", "Two blocks", "b"), &folder.0);
+    let of = |colours: Colours| {
+        let wanted = Picture {
+            colours,
+            ..Picture::default()
+        };
+        facts(&folder, &wanted)
+    };
+    let auto = of(Colours::default());
+    let most = auto.extremes.unwrap()[1];
+    assert!(
+        auto.range == [0.0, most] && auto.peak == Some(most),
+        "{auto:?}"
+    );
+    let given = of(Colours {
+        range: Some([-1.0, most / 2.0]),
+        ..Colours::default()
+    });
+    assert_eq!(given.range, [-1.0, most / 2.0]);
+    assert_eq!(given.words, auto.words);
+    let all = of(Colours {
+        threshold: Some(2.0 * most),
+        ..Colours::default()
+    });
+    assert!(auto.strips > 0 && all.strips == 0);
 }
 
 #[test]

@@ -175,6 +175,8 @@ mod tests {
         signed: false,
         status: false,
         carried: false,
+        bands: None,
+        threshold: None,
     };
 
     fn pixel(r: &Raster, x: usize, y: usize) -> [u8; 4] {

@@ -135,6 +135,7 @@ impl Panel<'_> {
             signed,
             status: name == STATUS,
             carried: !signed,
+            ..Scale::default()
         };
         let mut raster = Raster::new(area.map(|a| (a * fine) as usize));
         self.paint(&values, &colours, &frame, &mut raster);
@@ -152,6 +153,7 @@ impl Panel<'_> {
             unit: &unit,
             colours: &colours,
             values: &values,
+            words: &[axis::between([low, high])],
         };
         let size = [self.bar - 1.2 * em, area[1].max(12.0 * em)];
         legend::bar(&shown, place, size, em, canvas);
@@ -244,7 +246,7 @@ impl Panel<'_> {
         let drawn = Drawn {
             see: &|x| frame.place(x),
             hides: &|_| false,
-            scale: 1.0,
+            places: &|_, _| Vec::new(),
             at: self.at,
             area,
             em,
