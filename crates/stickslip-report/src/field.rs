@@ -48,7 +48,27 @@ pub const STATUS: &str = "CSTATUS";
 /// Fields of contact that begin at zero and grow with what a surface carries.
 const CARRIED: &[&str] = &["CPRESS", "CDISS", "CWEAR"];
 
+/// The time of interest of a field.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Interest {
+    /// That at which contact presses most.
+    Pressure,
+    /// The end: it grows all the time.
+    End,
+    /// That at which it is largest.
+    Largest,
+}
+
 impl Field {
+    /// Its time of interest.
+    pub fn interest(&self) -> Interest {
+        match self.stem() {
+            "CPRESS" | "CSTATUS" | "CSHEAR" | "COPEN" => Interest::Pressure,
+            "CDISS" | "CWEAR" => Interest::End,
+            _ => Interest::Largest,
+        }
+    }
+
     /// Whether surfaces of contact have it and nothing else.
     pub fn of_contact(&self) -> bool {
         self.array.starts_with('C')
@@ -144,6 +164,15 @@ pub fn fields(arrays: &BTreeMap<String, PointArray>) -> Vec<Field> {
     all
 }
 
+/// The field of this name, in capitals or not.
+pub fn named(fields: &[Field], name: &str) -> Option<Field> {
+    let same = |f: &&Field| f.name == name;
+    let alike = |f: &&Field| f.name.eq_ignore_ascii_case(name);
+    let mut all = fields.iter();
+    let found = all.clone().find(same).or_else(|| all.find(alike));
+    found.cloned()
+}
+
 /// The range of values; `None` if none is a number.
 pub fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     let mut range = [f64::INFINITY, f64::NEG_INFINITY];
@@ -218,6 +247,10 @@ mod tests {
             .map(|f| f.name.as_str())
             .collect();
         assert_eq!(odd, ["U1", "S12", "S13"]);
+        assert_eq!(
+            [0, 1].map(|i| all[i].interest()),
+            [Interest::Pressure, Interest::Largest]
+        );
         assert_eq!(span_of(Some(&all[0]), [2., 3.]), ([0., 3.], false));
         assert_eq!(span_of(Some(&all[1]), [2., 3.]), ([2., 3.], false));
     }

@@ -133,11 +133,8 @@ impl Results {
         })
     }
 
-    /// The largest pressure of each frame; empty where there are no surfaces.
+    /// The largest pressure of each frame; zero where there are no surfaces.
     fn peaks(&self) -> Result<Vec<f64>, Error> {
-        if self.surfaces.is_empty() {
-            return Ok(Vec::new());
-        }
         let most = |sheets: Vec<Sheet>| {
             let peaks = sheets.iter().filter_map(Sheet::peak);
             peaks.map(|(_, p)| p).fold(0.0, f64::max)
@@ -153,10 +150,15 @@ impl Results {
     /// # Errors
     /// As [`Results::sheets`].
     pub fn of_peak(&self) -> Result<usize, Error> {
-        let peaks = self.peaks()?;
-        let last = self.frames.len().saturating_sub(1);
-        let most = peaks.iter().fold(0.0, |m: f64, p| m.max(*p));
-        let near = peaks.iter().rposition(|p| most > 0.0 && *p >= 0.995 * most);
-        Ok(near.unwrap_or(last))
+        Ok(latest_largest(&self.peaks()?))
     }
+}
+
+/// The place of the largest number; of those that come near it the last, which is where a load that is held ends. The last of all where none is above zero.
+pub fn latest_largest(numbers: &[f64]) -> usize {
+    let most = numbers.iter().fold(0.0, |m: f64, n| m.max(*n));
+    let near = numbers
+        .iter()
+        .rposition(|n| most <= 0.0 || *n >= 0.995 * most);
+    near.unwrap_or(0)
 }

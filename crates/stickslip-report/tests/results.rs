@@ -559,6 +559,43 @@ fn colours_are_those_that_are_asked_for() {
 }
 
 #[test]
+fn each_field_is_drawn_at_its_time_of_interest() {
+    let folder = Folder::new("interest");
+    // It is pressed and slid, then let go.
+    let text = stacked("plane-strain", "Two blocks", "b")
+        .replace("x = 1e-4", "x = 4e-3")
+        .replace(
+            "friction.coulomb = { mu = 0.3 }",
+            "friction.coulomb = { mu = 0.3 }\nwear.archard = { coefficient = 1e-16 }",
+        )
+        .replace("y = -1e-3", "y = -1e-3\namplitude = \"down\"")
+        .replace(
+            "[[step]]",
+            "[amplitude.down]\ntable = [[0, 0], [0.25, 0], [0.5, 1], [1, 0.2]]\n[[step]]",
+        )
+        .replace("increments.fixed = 3", "increments.fixed = 4");
+    run(&text, &folder.0);
+    let of = |field: &str, when: When| {
+        let wanted = Picture {
+            field: Some(field.into()),
+            when,
+            ..Picture::default()
+        };
+        facts(&folder, &wanted)
+    };
+    let times = ["CPRESS", "CSTATUS", "U2", "CWEAR", "CDISS"].map(|f| of(f, When::Peak).time);
+    assert_eq!(times, [0.5, 0.5, 0.5, 1.0, 1.0]);
+    let worn = of("CWEAR", When::Peak);
+    assert!(
+        worn.extremes.unwrap()[1] > 0.0 && worn.strips > 0,
+        "{worn:?}"
+    );
+    let first = of("CWEAR", When::Number(1));
+    assert_eq!((first.extremes, first.strips), (Some([0.0; 2]), 0));
+    assert_eq!(first.words, ["CWEAR is zero everywhere at this time"]);
+}
+
+#[test]
 fn what_an_interface_carries_is_drawn_along_it_and_written_as_a_table() {
     for space in ["solid", "plane-strain"] {
         let folder = Folder::new(&format!("along-{space}"));

@@ -77,7 +77,8 @@ struct Framing {
     /// given, or the von Mises stress where nothing touches.
     #[arg(long, value_name = "NAME", value_parser = Words(fields), hide_possible_values = true)]
     field: Option<String>,
-    /// Which of the times at which fields were written: `peak`, at which contact presses most, `last`, a number from 1, or `all`, a file each.
+    /// Which of the times at which fields were written: `peak`, at which contact presses most, or the field that is named is largest, and of wear and dissipation the last; `last`; a
+    /// number from 1; or `all`, a file each.
     #[arg(long, value_name = "peak|last|N|all", default_value = "peak", value_parser = when)]
     time: When,
     /// Factor of the displacements; with `auto` 1 where a field of contact is shown, elsewhere the largest is about a twentieth of the model, or less where

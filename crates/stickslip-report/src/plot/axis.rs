@@ -31,7 +31,7 @@ pub fn number(value: f64, digits: usize) -> String {
         // Digits that do not count are zeros: 1860 is read more easily than 1.86e3.
         let unit = 10f64.powi(size.log10().floor() as i32 + 1 - digits as i32);
         format!("{}", (value / unit).round() * unit)
-    } else if (1e-3..1e6).contains(&size) && fits(value, digits) {
+    } else if (1e-4..1e6).contains(&size) && fits(value, digits) {
         let after = (digits as i32 - 1 - size.log10().floor() as i32).clamp(0, 12) as usize;
         trimmed(&format!("{value:.after$}"))
     } else {
@@ -101,6 +101,7 @@ mod tests {
             (999_960.0, "1e6"),
             (1.5e-12, "1.5e−12"),
             (601.2422, "601.2"),
+            (5e-4, "0.0005"),
             (250_000.0, "250000"),
             (9_876.0, "9876"),
             (0.012_346, "0.01235"),

@@ -35,6 +35,10 @@ impl Facts {
         let Some([least, most]) = self.extremes else {
             return Vec::new();
         };
+        if [least, most] == [0.0; 2] {
+            let name = self.field.as_deref().unwrap_or("the field");
+            return vec![format!("{name} is zero everywhere at this time")];
+        }
         let [low, high] = self.range;
         let room = 1e-6 * (high - low).abs();
         if given || (least >= low - room && most <= high + room) {
@@ -76,6 +80,15 @@ mod tests {
             ..facts
         };
         assert_eq!(whole.said(false, 2), ["0 … 8.4e9"]);
+        let zero = Facts {
+            field: Some("CWEAR".into()),
+            extremes: Some([0.0; 2]),
+            ..Facts::default()
+        };
+        assert_eq!(
+            zero.said(false, 2),
+            ["CWEAR is zero everywhere at this time"]
+        );
         assert_eq!(Facts::default().said(false, 3), Vec::<String>::new());
     }
 }

@@ -71,10 +71,14 @@ pub fn bar(shown: &Shown, at: [f64; 2], size: [f64; 2], em: f64, canvas: &mut dy
     let lines: Vec<String> = (said.iter())
         .flat_map(|words| wrap(words, 0.85 * em, size[0]))
         .collect();
-    let below = 1.15 * em * lines.len() as f64;
-    let height = (size[1] - (y - at[1]) - below - 0.5 * em).clamp(4.0 * em, 24.0 * em);
-    scale(colours, [x, y], height, em, canvas);
-    y += height + 1.5 * em;
+    // Of zero there is nothing to tell apart.
+    if colours.range != [0.0; 2] {
+        let below = 1.15 * em * lines.len() as f64;
+        let height = (size[1] - (y - at[1]) - below - 0.5 * em).clamp(4.0 * em, 24.0 * em);
+        scale(colours, [x, y], height, em, canvas);
+        y += height;
+    }
+    y += 1.5 * em;
     for line in lines {
         canvas.text([x, y], &line, 0.85 * em, Anchor::Start, SOFT, false);
         y += 1.15 * em;

@@ -55,7 +55,7 @@ pub fn picture(
             "no fields were written: there is nothing to draw",
         ));
     }
-    let frames = chosen(&results, wanted.when)?;
+    let frames = chosen(&results, wanted.when, wanted.field.as_deref())?;
     // Before anything is read: a wrong ending or size is said at once.
     canvas(&file, wanted.size)?;
     let scene = scene::Scene::new(&results, wanted, &frames)?;
@@ -79,7 +79,7 @@ pub fn picture(
 /// As [`picture`], but that nothing is written.
 pub fn facts(directory: &Path, wanted: &Picture) -> Result<Vec<Facts>, Error> {
     let results = Results::open(directory)?;
-    let frames = chosen(&results, wanted.when)?;
+    let frames = chosen(&results, wanted.when, wanted.field.as_deref())?;
     let scene = scene::Scene::new(&results, wanted, &frames)?;
     let draw = |frame: &usize| {
         let mut canvas = Svg::new(wanted.size);

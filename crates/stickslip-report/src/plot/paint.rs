@@ -9,7 +9,7 @@ use super::raster::{Corner, FINE, Raster};
 use super::words::{INK, SOFT};
 use super::zoom::{self, Mirror};
 use crate::colour::Scale;
-use crate::field::Field;
+use crate::field::{self, Field};
 use crate::obstacle::Outline;
 use crate::skin::Skin;
 
@@ -83,6 +83,16 @@ impl Look {
         all.zip(&self.skin.owner).map(shift).collect()
     }
 
+    /// The colours of these values: those of the field, and none where it is zero everywhere.
+    pub fn colours_of(&self, values: &[f64]) -> Scale {
+        let range = field::range(values.iter().copied());
+        let zero = range == Some([0.0; 2]) && !self.colours.status;
+        Scale {
+            threshold: self.colours.threshold.or(zero.then_some(f64::MIN_POSITIVE)),
+            ..self.colours
+        }
+    }
+
     /// The box of the picture's plane around what is drawn.
     pub fn bounds(&self, points: &PointFields) -> zoom::Box2 {
         let all = self.moved(points);
@@ -146,6 +156,7 @@ impl Look {
             .map(|x| frame.place(self.camera.see(*x)))
             .collect();
         let flat = self.skin.dim == 2;
+        let colours = self.colours_of(&values);
         for body in (0..self.skin.ends.len()).filter(|&b| self.shown[b]) {
             for t in self.skin.triangles_of(body) {
                 let corners = t.map(|i| Corner {
@@ -157,7 +168,7 @@ impl Look {
                 } else {
                     self.light(t.map(|i| moved[i as usize]))
                 };
-                raster.triangle(corners, &self.colours, light.clamp(0.0, 1.0));
+                raster.triangle(corners, &colours, light.clamp(0.0, 1.0));
             }
         }
         // Edges lie in the faces: a little nearer, so that faces they bound do not hide them.
@@ -244,18 +255,19 @@ const CUTS: usize = 8;
 /// The strips along surfaces of contact in a plane: where there is something to show. What a surface carries is shown where it carries something.
 pub fn strip_pieces(look: &Look, values: &[f64]) -> Vec<Piece> {
     let known = |i: &u32| look.draws(*i) && !values[*i as usize].is_nan();
+    let colours = look.colours_of(values);
     let mut pieces = Vec::new();
     for &ends in look.skin.rim.iter().filter(|e| e.iter().all(known)) {
         let [v, w] = ends.map(|i| values[i as usize]);
         for k in 0..CUTS {
             let f = (k as f64 + 0.5) / CUTS as f64;
-            let value = match (look.colours.status, f < 0.5) {
+            let value = match (colours.status, f < 0.5) {
                 (true, true) => v,
                 (true, false) => w,
                 (false, _) => v + f * (w - v),
             };
-            let empty = look.colours.carried && value <= 0.0;
-            if !empty && !look.colours.nothing(value) {
+            let empty = colours.carried && value <= 0.0;
+            if !empty && !colours.nothing(value) {
                 let part = [k, k + 1].map(|i| i as f64 / CUTS as f64);
                 pieces.push(Piece { ends, part, value });
             }

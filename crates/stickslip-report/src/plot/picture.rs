@@ -8,7 +8,8 @@ pub use crate::units::Units;
 /// Which of the times are drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum When {
-    /// That at which contact presses most, or the last where nothing presses.
+    /// That of interest: of pressure and status that at which contact presses most, or the last where nothing presses; of what only grows, as wear, the last; of other fields that at
+    /// which they are largest.
     Peak,
     /// The last.
     Last,

@@ -62,12 +62,8 @@ fn choose(results: &Results, grid: &Grid, name: Option<&str>) -> Result<Option<F
         let chosen = name.and_then(named).or_else(|| named("U"));
         return Ok(chosen.or_else(|| list.first().cloned()));
     };
-    let found = list
-        .iter()
-        .find(|f| f.name == name)
-        .or_else(|| list.iter().find(|f| f.name.eq_ignore_ascii_case(name)));
-    match found {
-        Some(field) => Ok(Some(field.clone())),
+    match field::named(&list, name) {
+        Some(field) => Ok(Some(field)),
         None => {
             let names: Vec<&str> = list.iter().map(|f| f.name.as_str()).collect();
             let meant = match stickslip::problem::nearest(name, &names) {
