@@ -47,13 +47,17 @@ pub const SIGNED: &[Rgb] = &[
 /// Where there is no value.
 pub const NOTHING: Rgb = [196, 200, 206];
 
-/// The status of contact: name and colour, by its number. Blue and vermilion of the palette of Okabe and Ito, and a yellow that is
-/// pale, as most of a surface is open.
-pub const STATUSES: [(&str, Rgb); 3] = [
+/// The status of contact: name and colour, by its number. Blue, vermilion and green of the palette of Okabe and Ito, and a yellow that is
+/// pale, as most of a surface is open. Tied surfaces have no status in files: they neither stick nor slip.
+pub const STATUSES: [(&str, Rgb); 4] = [
     ("open", [243, 229, 150]),
     ("stick", [0, 114, 178]),
     ("slip", [213, 94, 0]),
+    ("tied", [0, 158, 115]),
 ];
+
+/// The number of what is tied.
+pub const TIED: usize = 3;
 
 /// The colour at `t` between 0 and 1 along a list of anchors.
 pub fn along(anchors: &[Rgb], t: f64) -> Rgb {
@@ -109,7 +113,7 @@ impl Scale {
             return NOTHING;
         }
         if self.status {
-            return STATUSES[value.round().clamp(0.0, 2.0) as usize].1;
+            return STATUSES[value.round().clamp(0.0, TIED as f64) as usize].1;
         }
         let width = self.range[1] - self.range[0];
         let t = match width > 0.0 {

@@ -595,6 +595,69 @@ fn each_field_is_drawn_at_its_time_of_interest() {
     assert_eq!(first.words, ["CWEAR is zero everywhere at this time"]);
 }
 
+/// Statuses and the largest pressure of the last time: in the history, the summary, the surface, the table and the picture.
+#[test]
+fn run_picture_report_and_files_count_the_same_points() {
+    for (name, change) in [
+        ("mortar", ""),
+        ("quadratic", ""),
+        ("nodes", "discretisation.node-to-facet = {}\n"),
+        ("penalty", "enforcement.penalty = { stiffness = 1e13 }\n"),
+    ] {
+        let folder = Folder::new(&format!("count-{name}"));
+        // Wider than what it is pressed on, from the middle outwards, so that a part is open, and it slips near the edge.
+        let text = stacked("plane-strain", "T", "b")
+            .replace("cells = [2, 1]", "cells = [7, 2]")
+            .replace("[support.base]", &format!("{change}[support.base]"))
+            .replace("to = [1, 2]", "to = [2, 2]")
+            .replace(
+                "secondary = \"b.bottom\"",
+                "roles = \"as-named\"\nsecondary = \"b.bottom\"",
+            )
+            .replace("x = 1e-4", "x = 2e-3");
+        let text = match name {
+            "quadratic" => text.replace("cells = [7, 2]", "cells = [7, 2], element = \"quad8\""),
+            _ => text,
+        };
+        run(&text, &folder.0);
+        let results = Results::open(&folder.0).unwrap();
+        let last = |column: &str| *results.history.column(column).unwrap().last().unwrap();
+        let history = ["OPEN", "STICK", "SLIP"].map(|c| last(c) as usize);
+        assert!(
+            history.iter().filter(|n| **n > 0).count() >= 2,
+            "{name}: {history:?}"
+        );
+        let points = &results.summary["interfaces"][0]["points"];
+        let summary = ["open", "stick", "slip"].map(|n| points[n].as_u64().unwrap() as usize);
+        assert_eq!(summary, history, "{name}");
+        let table = stickslip::io::csv::read(&folder.file("interfaces/joint.csv")).unwrap();
+        let statuses = table.column("CSTATUS").unwrap();
+        let rows = [0.0, 1.0, 2.0].map(|s| statuses.iter().filter(|v| **v == s).count());
+        assert_eq!(rows, history, "{name}");
+        let picture = |field: &str| {
+            let wanted = Picture {
+                field: Some(field.into()),
+                when: When::Last,
+                ..Picture::default()
+            };
+            facts(&folder, &wanted)
+        };
+        assert_eq!(picture("CSTATUS").statuses, Some(history), "{name}");
+        let (text, _) = page(&results, Limits::default()).unwrap();
+        let said = format!("{history:?}").replace(' ', "");
+        assert!(text.contains(&format!("{said}]")), "{name}: {said}");
+        let pressure = picture("CPRESS");
+        assert_eq!(pressure.peak, Some(last("joint.CPRESSMAX")), "{name}");
+        let largest = table
+            .column("CPRESS")
+            .unwrap()
+            .iter()
+            .fold(0.0, |m: f64, p| m.max(*p));
+        assert_eq!(Some(largest), pressure.peak, "{name}");
+        assert_eq!(pressure.extremes.unwrap()[1], largest, "{name}");
+    }
+}
+
 #[test]
 fn what_an_interface_carries_is_drawn_along_it_and_written_as_a_table() {
     for space in ["solid", "plane-strain"] {

@@ -25,8 +25,10 @@ pub struct Facts {
     pub in_view: Option<f64>,
     /// How many strips along surfaces there are in a plane, pieces of one colour.
     pub strips: usize,
-    /// The largest contact pressure that is labelled.
+    /// The largest contact pressure that is labelled, as the run has found it.
     pub peak: Option<f64>,
+    /// How many contact points are open, stick and slip, as the run has counted them.
+    pub statuses: Option<[usize; 3]>,
 }
 
 impl Facts {

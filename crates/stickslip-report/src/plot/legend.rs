@@ -20,6 +20,8 @@ pub struct Shown<'a> {
     pub values: &'a [f64],
     /// What is said of them.
     pub words: &'a [String],
+    /// How many contact points are open, stick and slip, where that is known.
+    pub statuses: Option<[usize; 3]>,
 }
 
 /// Draws the colour bar of a field, or the list of the statuses.
@@ -30,6 +32,7 @@ pub fn bar(shown: &Shown, at: [f64; 2], size: [f64; 2], em: f64, canvas: &mut dy
         colours,
         values,
         words: said,
+        statuses,
     } = *shown;
     let [x, mut y] = at;
     let label = field.label();
@@ -58,8 +61,12 @@ pub fn bar(shown: &Shown, at: [f64; 2], size: [f64; 2], em: f64, canvas: &mut dy
     let missing = values.iter().any(|v| v.is_nan());
     if colours.status {
         for (number, (name, colour)) in colour::STATUSES.iter().enumerate() {
-            let count = values.iter().filter(|v| v.round() == number as f64).count();
-            key(*colour, &format!("{name} ({count})"), &mut y);
+            let count = statuses.and_then(|counts| counts.get(number).copied());
+            let there = values.iter().any(|v| *v == number as f64);
+            if number < colour::TIED || there {
+                let count = count.map_or_else(String::new, |n| format!(" ({n})"));
+                key(*colour, &format!("{name}{count}"), &mut y);
+            }
         }
     }
     if missing {

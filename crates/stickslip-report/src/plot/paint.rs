@@ -8,7 +8,7 @@ use super::camera::{Camera, Frame, cross, unit};
 use super::raster::{Corner, FINE, Raster};
 use super::words::{INK, SOFT};
 use super::zoom::{self, Mirror};
-use crate::colour::Scale;
+use crate::colour::{self, Scale};
 use crate::field::{self, Field};
 use crate::obstacle::Outline;
 use crate::skin::Skin;
@@ -58,11 +58,18 @@ pub fn displaced(skin: &Skin, points: &PointFields, scale: f64) -> Vec<Vec3> {
 /// The values at the points of a skin; NaN where there are none.
 pub fn values(points: &PointFields, skin: &Skin, field: Option<&Field>) -> Vec<f64> {
     let array = field.and_then(|f| Some((f, points.arrays.get(&f.array)?)));
+    // What is tied has no status in files.
+    let tied = points.arrays.get("TNORMAL");
+    let tied = tied.filter(|_| field.is_some_and(|f| f.name == field::STATUS));
     let value = |p: &usize| {
-        array.map_or(f64::NAN, |(f, array)| match f.component {
+        let value = array.map_or(f64::NAN, |(f, array)| match f.component {
             Some(c) if c >= array.components => f64::NAN,
             _ => f.value(array, *p),
-        })
+        });
+        match tied.is_some_and(|t| value.is_nan() && !t.values[*p].is_nan()) {
+            true => colour::TIED as f64,
+            false => value,
+        }
     };
     skin.points.iter().map(value).collect()
 }
@@ -288,7 +295,7 @@ fn spacing(seen: &[Vec3], edges: &[[u32; 2]]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::colour::{self, Rgb};
+    use crate::colour::Rgb;
     use crate::plot::camera::View;
     use stickslip::io::vtu::{Grid, PointArray};
 

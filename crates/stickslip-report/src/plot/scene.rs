@@ -276,13 +276,14 @@ impl<'a> Scene<'a> {
     }
 
     /// The point that presses most where a side of it is drawn, and its pressure.
-    fn peak<'s>(&self, sheets: &'s [Sheet]) -> Option<(&'s Sheet, usize, f64)> {
+    fn peak<'s>(&self, sheets: &'s [Sheet], time: f64) -> Option<(&'s Sheet, usize, f64)> {
         let field = self.look.field.as_ref();
         if !field.is_some_and(|f| f.array == "CPRESS") {
             return None;
         }
         let peaks = sheets.iter().filter_map(|sheet| {
             let (point, most) = sheet.peak()?;
+            let most = self.results.peak_at(&sheet.name, time).unwrap_or(most);
             (!self.places(sheet, point).is_empty()).then_some((sheet, point, most))
         });
         // Of values that are alike the first.
@@ -307,6 +308,7 @@ impl<'a> Scene<'a> {
             range: colours.range,
             extremes,
             in_view: self.in_view,
+            statuses: self.results.statuses_at(self.results.frames[frame].time),
             strips: paint::strip_pieces(&self.look, &values).len(),
             ..Facts::default()
         };
@@ -321,7 +323,7 @@ impl<'a> Scene<'a> {
         }
         // What points of contact have, not means over those of a node.
         if let (Some((sheet, point, most)), Some(extremes)) =
-            (self.peak(sheets), &mut facts.extremes)
+            (self.peak(sheets, facts.time), &mut facts.extremes)
         {
             (facts.peak, extremes[1], facts.place) = (Some(most), most, sheet.place(point, 1.0));
         }
@@ -364,7 +366,7 @@ impl<'a> Scene<'a> {
         if self.arrows {
             marks::arrows(&sheets, &drawn, skin.dim, canvas);
         }
-        if let Some((sheet, point, most)) = self.peak(&sheets) {
+        if let Some((sheet, point, most)) = self.peak(&sheets, facts.time) {
             marks::peak(sheet, point, most, &drawn, &self.units, canvas);
         }
         self.headline(frame, em, [margin, width - 2.0 * margin], canvas);
@@ -378,6 +380,7 @@ impl<'a> Scene<'a> {
                 colours: &look.colours,
                 values: &values,
                 words: &facts.words,
+                statuses: facts.statuses,
             };
             let high = if inset { area[1] - 11.0 * em } else { area[1] };
             legend::bar(&shown, [x, top + 0.5 * em], [bar, high], em, canvas);

@@ -154,6 +154,7 @@ impl Panel<'_> {
             colours: &colours,
             values: &values,
             words: &[axis::between([low, high])],
+            statuses: None,
         };
         let size = [self.bar - 1.2 * em, area[1].max(12.0 * em)];
         legend::bar(&shown, place, size, em, canvas);
