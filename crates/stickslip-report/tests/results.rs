@@ -595,6 +595,32 @@ fn each_field_is_drawn_at_its_time_of_interest() {
     assert_eq!(first.words, ["CWEAR is zero everywhere at this time"]);
 }
 
+#[test]
+fn invariants_of_the_stress_are_drawn() {
+    let folder = Folder::new("invariants");
+    run(&stacked("plane-strain", "T", "b"), &folder.0);
+    let extremes = |field: &str| {
+        let wanted = Picture {
+            field: Some(field.into()),
+            ..Picture::default()
+        };
+        let facts = facts(&folder, &wanted);
+        (facts.field.unwrap(), facts.extremes.unwrap())
+    };
+    let [(name, s1), (_, s2), (_, s3)] = ["S1", "S2", "S3"].map(extremes);
+    assert_eq!(name, "S1");
+    for k in 0..2 {
+        assert!(s1[k] >= s2[k] && s2[k] >= s3[k], "{s1:?} {s2:?} {s3:?}");
+    }
+    let (_, mises) = extremes("MISES");
+    let (_, tresca) = extremes("TRESCA");
+    // Tresca's stress is between that of von Mises and 2/√3 of it.
+    let ratio = tresca[1] / mises[1];
+    assert!((1.0 - 1e-9..1.155).contains(&ratio), "{ratio}");
+    assert!(s3[0] < 0.0 && extremes("PRESS").1[1] > 0.0);
+    assert_eq!(extremes("umag"), extremes("U"));
+}
+
 /// Statuses and the largest pressure of the last time: in the history, the summary, the surface, the table and the picture.
 #[test]
 fn run_picture_report_and_files_count_the_same_points() {

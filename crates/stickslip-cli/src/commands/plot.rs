@@ -73,7 +73,7 @@ pub struct Arguments {
 /// What is seen, and from where.
 #[derive(Debug, clap::Args)]
 struct Framing {
-    /// The field in colour, as ParaView lists it, or a component: CPRESS, CSTATUS, MISES, U, U1, S11. The contact pressure if not
+    /// The field in colour, as ParaView lists it, a component or an invariant: CPRESS, CSTATUS, MISES, U, U1, S11, S1 (the largest principal stress). The contact pressure if not
     /// given, or the von Mises stress where nothing touches.
     #[arg(long, value_name = "NAME", value_parser = Words(fields), hide_possible_values = true)]
     field: Option<String>,

@@ -35,7 +35,7 @@ pub fn canvas(file: &Path, size: [u32; 2]) -> Result<Box<dyn Canvas>, Error> {
 fn of_interest(results: &Results, name: Option<&str>) -> Result<usize, Error> {
     let last = results.frames.len() - 1;
     let arrays = vtu::read(&results.frames[last].file)?.arrays;
-    let field = name.and_then(|name| field::named(&field::fields(&arrays), name));
+    let field = name.and_then(|name| field::named(&field::with_invariants(&arrays), name));
     let Some(field) = field else {
         return results.of_peak();
     };

@@ -62,10 +62,7 @@ pub fn values(points: &PointFields, skin: &Skin, field: Option<&Field>) -> Vec<f
     let tied = points.arrays.get("TNORMAL");
     let tied = tied.filter(|_| field.is_some_and(|f| f.name == field::STATUS));
     let value = |p: &usize| {
-        let value = array.map_or(f64::NAN, |(f, array)| match f.component {
-            Some(c) if c >= array.components => f64::NAN,
-            _ => f.value(array, *p),
-        });
+        let value = array.map_or(f64::NAN, |(f, array)| f.value(array, *p));
         match tied.is_some_and(|t| value.is_nan() && !t.values[*p].is_nan()) {
             true => colour::TIED as f64,
             false => value,
@@ -359,7 +356,7 @@ mod tests {
 
     #[test]
     fn both_sides_of_a_contact_are_seen_beside_one_another() {
-        for mirrors in [vec![], vec![(0, 0.0)]] {
+        for mirrors in [vec![], vec![(0, 0.0)], vec![(0, 0.0), (1, 2.0)]] {
             let (look, grid) = look(0.25, mirrors);
             for part in [0.25, 0.7] {
                 let colour = |value: f64| look.colours.colour(value);

@@ -45,7 +45,7 @@ pub struct Scene<'a> {
 }
 
 fn choose(results: &Results, grid: &Grid, name: Option<&str>) -> Result<Option<Field>, Error> {
-    let list = field::fields(&grid.points.arrays);
+    let list = field::with_invariants(&grid.points.arrays);
     let Some(name) = name else {
         // Rigid bodies have no stress.
         let says = |name: &&'static str| {

@@ -11,7 +11,7 @@ use super::page::Page;
 use super::unroll;
 use crate::colour::Scale;
 use crate::draw::{Anchor, Canvas, Pen};
-use crate::field::{Field, STATUS};
+use crate::field::{Field, Part, STATUS};
 use crate::sheet::Sheet;
 use crate::units::behind;
 
@@ -120,7 +120,10 @@ impl Panel<'_> {
         let field = Field {
             name: name.into(),
             array: name.into(),
-            component: array.filter(|a| a.components == 1).map(|_| 0),
+            part: match array {
+                Some(array) if array.components > 1 => Part::Magnitude,
+                _ => Part::Component(0),
+            },
         };
         let count = self.plan.len();
         let values: Vec<f64> = match array {
