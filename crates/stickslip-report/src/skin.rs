@@ -240,14 +240,13 @@ impl Skin {
 
     /// The box around all points: lowest and highest corner.
     pub fn bounds(&self) -> [[f64; 3]; 2] {
-        let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
-        for x in &self.positions {
-            for c in 0..3 {
-                bounds[0][c] = bounds[0][c].min(x[c]);
-                bounds[1][c] = bounds[1][c].max(x[c]);
-            }
-        }
-        bounds
+        around(self.positions.iter())
+    }
+
+    /// The box around the points of a body.
+    pub fn bounds_of(&self, body: usize) -> [[f64; 3]; 2] {
+        let all = self.positions.iter().zip(&self.owner);
+        around(all.filter(|(_, b)| **b as usize == body).map(|(x, _)| x))
     }
 
     /// The diagonal of that box `[length]`.
@@ -260,6 +259,17 @@ impl Skin {
             0.0
         }
     }
+}
+
+fn around<'a>(points: impl Iterator<Item = &'a [f64; 3]>) -> [[f64; 3]; 2] {
+    let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    for x in points {
+        for c in 0..3 {
+            bounds[0][c] = bounds[0][c].min(x[c]);
+            bounds[1][c] = bounds[1][c].max(x[c]);
+        }
+    }
+    bounds
 }
 
 #[cfg(test)]

@@ -621,6 +621,69 @@ fn invariants_of_the_stress_are_drawn() {
     assert_eq!(extremes("umag"), extremes("U"));
 }
 
+#[test]
+fn supports_and_loads_are_those_of_the_problem() {
+    for space in ["solid", "plane-strain"] {
+        let folder = Folder::new(&format!("loads-{space}"));
+        let pull = match space {
+            "solid" => "[7e4, 0, 0]",
+            _ => "[7e4, 0]",
+        };
+        let load =
+            format!("[load.pull]\nset = \"b.right\"\ntraction = {{ value = {pull} }}\n[[step]]");
+        run(
+            &stacked(space, "T", "b").replace("[[step]]", &load),
+            &folder.0,
+        );
+        let of = |when: When, loads: bool| {
+            let wanted = Picture {
+                when,
+                loads,
+                ..Picture::default()
+            };
+            facts(&folder, &wanted).acts
+        };
+        assert_eq!(of(When::Last, false), None);
+        let last = of(When::Last, true).unwrap();
+        // Points of a face times components.
+        let held = if space == "solid" { [12, 12] } else { [6, 6] };
+        let depth = if space == "solid" { [4, 0] } else { [0, 0] };
+        assert_eq!(
+            [last.held, last.prescribed],
+            [held[0] + depth[0], held[1] - depth[0]],
+            "{space}"
+        );
+        let [x, y, z] = last.force;
+        assert!(
+            (x - 7e4).abs() < 1e-6 && y.abs() + z.abs() < 1e-6,
+            "{last:?}"
+        );
+        // It grows over the step.
+        let first = of(When::Number(1), true).unwrap();
+        assert!(first.force[0] < 0.5 * x, "{first:?}");
+        let svg = folder.file("l.svg");
+        let wanted = Picture {
+            loads: true,
+            ..Picture::default()
+        };
+        let (_, notes) = plot::picture(&folder.0, Some(&svg), &wanted).unwrap();
+        assert_eq!(notes.iter().filter(|n| n.contains("not drawn")).count(), 0);
+        let text = std::fs::read_to_string(&svg).unwrap();
+        for word in ["held", "prescribed displacement", "load", "undeformed"] {
+            assert!(text.contains(word), "{word}");
+        }
+        // Without the problem the picture is made all the same.
+        std::fs::remove_file(folder.file("problem.toml")).unwrap();
+        let (_, notes) = plot::picture(&folder.0, Some(&svg), &wanted).unwrap();
+        assert!(
+            notes
+                .iter()
+                .any(|n| n.contains("supports and loads are not drawn")),
+            "{notes:?}"
+        );
+    }
+}
+
 /// Statuses and the largest pressure of the last time: in the history, the summary, the surface, the table and the picture.
 #[test]
 fn run_picture_report_and_files_count_the_same_points() {

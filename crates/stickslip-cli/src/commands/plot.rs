@@ -24,7 +24,7 @@ pub struct Arguments {
     framing: Framing,
     /// Draw what this interface carries along its surface: in a plane pressure, shear and status over the arc, in space maps of them, in plan or unrolled. With --field that
     /// field alone, in a plane, with --time all a line a time; of CWEAR and CDISS that of the surface opposite as well, in a file of its own (NAME-opposite.svg).
-    #[arg(long, value_name = "INTERFACE", conflicts_with_all = ["view", "bodies", "at", "arrows", "cut", "mirror", "history"])]
+    #[arg(long, value_name = "INTERFACE", conflicts_with_all = ["view", "bodies", "range", "bands", "threshold", "apart", "at", "arrows", "cut", "mirror", "loads", "history"])]
     along: Option<String>,
     /// Tractions as arrows, in the colours of stick and slip: by themselves in contact views of plane problems.
     #[arg(long, value_name = "yes|no", value_parser = yes)]
@@ -36,6 +36,9 @@ pub struct Arguments {
     /// quarter.
     #[arg(long, value_name = "x|y|z[=PLACE]", value_parser = plane)]
     mirror: Vec<Plane>,
+    /// Draw supports and loads as symbols, and the outline of the bodies before any displacement. Mesh files of the problem are looked for beside the folder of the results.
+    #[arg(long)]
+    loads: bool,
     /// Units of length and stress for the legend: `mm,MPa`. Numbers stay as they are.
     #[arg(long, value_name = "LENGTH,STRESS", value_parser = units)]
     units: Option<Units>,
@@ -43,7 +46,7 @@ pub struct Arguments {
     #[arg(long, value_name = "WxH", default_value = "1200x900", value_parser = size)]
     size: [u32; 2],
     /// Plot these columns of history.csv instead of the bodies.
-    #[arg(long, value_name = "COLUMN,...", value_delimiter = ',', conflicts_with_all = ["field", "view", "bodies"])]
+    #[arg(long, value_name = "COLUMN,...", value_delimiter = ',', conflicts_with_all = ["field", "view", "bodies", "range", "bands", "threshold", "apart", "loads"])]
     history: Vec<String>,
     /// The table whose columns are meant, where it is not history.csv: `modes-2-map.csv`, say. The picture is named after it.
     #[arg(long, value_name = "FILE", requires = "history")]
@@ -303,6 +306,7 @@ pub fn draw(arguments: &Arguments) -> Result<(Vec<PathBuf>, Vec<String>), Failur
                 threshold: arguments.framing.threshold,
             },
             apart: arguments.framing.apart,
+            loads: arguments.loads,
             units: arguments.units.clone(),
         };
         return Ok(plot::picture(&arguments.directory, output, &picture)?);

@@ -1,6 +1,7 @@
 //! What a picture says, as numbers and words: it is drawn from these.
 
 use super::axis::{between, number};
+use super::symbols::Acts;
 
 /// What a picture of the bodies says of one time.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -27,6 +28,8 @@ pub struct Facts {
     pub strips: usize,
     /// The largest contact pressure that is labelled, as the run has found it.
     pub peak: Option<f64>,
+    /// How much acts, where supports and loads are drawn.
+    pub acts: Option<Acts>,
     /// How many contact points are open, stick and slip, as the run has counted them.
     pub statuses: Option<[usize; 3]>,
 }

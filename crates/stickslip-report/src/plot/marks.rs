@@ -38,7 +38,7 @@ impl Drawn<'_> {
     }
 
     /// The direction of a vector of space on the canvas, as long as it is seen there with length one a unit.
-    fn towards(&self, v: [f64; 3]) -> [f64; 2] {
+    pub fn towards(&self, v: [f64; 3]) -> [f64; 2] {
         let (a, b) = ((self.see)([0.0; 3]), (self.see)(v));
         let size = v.iter().map(|x| x * x).sum::<f64>().sqrt();
         let [dx, dy] = [b[0] - a[0], b[1] - a[1]];

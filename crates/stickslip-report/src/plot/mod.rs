@@ -17,6 +17,7 @@ mod raster;
 mod regimes;
 mod scene;
 mod statistics;
+mod symbols;
 mod words;
 mod zoom;
 
@@ -35,6 +36,7 @@ pub use along::{Along, along};
 pub use camera::View;
 pub use facts::Facts;
 pub use picture::{Apart, Colours, Picture, Plane, Units, When, Zoom};
+pub use symbols::Acts;
 pub(crate) use zoom::scale;
 
 /// Draws the bodies with a field in colour; returns the files written, and what is to be said about them.

@@ -35,6 +35,8 @@ pub struct Look {
     pub mirrors: Vec<Mirror>,
     /// Rigid obstacles.
     pub obstacles: Vec<Outline>,
+    /// Edges of the skin that are drawn where they are before any displacement.
+    pub outline: Vec<[u32; 2]>,
 }
 
 /// The displacement of a point; zero where the file has none.
@@ -80,11 +82,13 @@ impl Look {
     /// The points of the skin where they are drawn, those that are not drawn too.
     pub fn moved(&self, points: &PointFields) -> Vec<Vec3> {
         let all = displaced(&self.skin, points, self.scale).into_iter();
-        let shift = |(x, &body): (Vec3, &u32)| {
-            let offset = self.offsets[body as usize];
-            [0, 1, 2].map(|c| x[c] + offset[c])
-        };
-        all.zip(&self.skin.owner).map(shift).collect()
+        all.zip(0..).map(|(x, i)| self.beside(i, x)).collect()
+    }
+
+    /// A place on the body of a point, moved aside with it.
+    fn beside(&self, point: u32, x: Vec3) -> Vec3 {
+        let offset = self.offsets[self.skin.owner[point as usize] as usize];
+        [0, 1, 2].map(|c| x[c] + offset[c])
     }
 
     /// The colours of these values: those of the field, and none where it is zero everywhere.
@@ -121,6 +125,12 @@ impl Look {
         let moved = self.moved(points);
         for seen in zoom::images(&self.mirrors) {
             self.image(points, &moved, &seen, &frame, &mut raster, em);
+        }
+        let still = self.outline.iter().filter(|e| self.draws(e[0]));
+        for ends in still {
+            let ends = ends.map(|i| self.beside(i, self.skin.positions[i as usize]));
+            let ends = ends.map(|x| frame.place(self.camera.see(x)));
+            raster.line(ends, 0.6 * fine, self.skin.size(), SOFT, 0.7);
         }
         for outline in &self.obstacles {
             // By the same factor as the bodies.
@@ -340,6 +350,7 @@ mod tests {
             camera: Camera::new(View::Iso, 2),
             mirrors,
             obstacles: Vec::new(),
+            outline: Vec::new(),
         };
         (look, grid)
     }

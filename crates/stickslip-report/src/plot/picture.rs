@@ -143,6 +143,8 @@ pub struct Picture {
     pub colours: Colours,
     /// By how much bodies that touch are drawn apart.
     pub apart: Apart,
+    /// Whether supports and loads are drawn as symbols, and the outline of the bodies before any displacement.
+    pub loads: bool,
     /// Units for the legend; those that the problem gives if not given.
     pub units: Option<Units>,
 }
@@ -163,6 +165,7 @@ impl Default for Picture {
             mirrors: Vec::new(),
             colours: Colours::default(),
             apart: Apart::Auto,
+            loads: false,
             units: None,
         }
     }

@@ -1,5 +1,7 @@
 //! The bodies with a field in colour, as one picture.
 
+use std::collections::BTreeMap;
+
 use stickslip::Error;
 use stickslip::io::vtu::{self, Grid, PointFields};
 
@@ -11,6 +13,7 @@ use super::marks;
 use super::paint::{self, Look, displaced, displacement, values};
 use super::picture::{Picture, Zoom};
 use super::raster::{FINE, Raster};
+use super::symbols::{self, Acting, Acts, Symbol};
 use super::words::{INK, SOFT, shorten};
 use super::{axis, legend, statistics, zoom};
 use crate::colour::Scale;
@@ -37,6 +40,8 @@ pub struct Scene<'a> {
     bounds: zoom::Box2,
     /// The part of it that is seen.
     seen: zoom::Box2,
+    /// Supports and loads, where they are drawn.
+    acting: Option<Acting>,
     /// Whether tractions are drawn as arrows.
     arrows: bool,
     units: Units,
@@ -169,7 +174,17 @@ impl<'a> Scene<'a> {
         let chosen = bodies::choose(&known, wanted);
         let shown = chosen.map_err(|message| fault(&results.directory, message))?;
         let Shown { bodies, view, .. } = shown;
+        let (acting, mut notes) = (wanted.loads)
+            .then(|| Acting::read(results, grid.points.points.len()))
+            .map_or((None, Vec::new()), |read| match read {
+                Ok(acting) => (Some(acting), Vec::new()),
+                Err(why) => (None, vec![why]),
+            });
+        notes.extend(shown.notes);
         let look = Look {
+            outline: (wanted.loads)
+                .then(|| symbols::outline(&skin))
+                .unwrap_or_default(),
             obstacles: obstacle::outlines(&results.problem, &skin),
             camera: Camera::new(view, skin.dim),
             shown: bodies,
@@ -189,9 +204,10 @@ impl<'a> Scene<'a> {
             given: wanted.colours.range.is_some(),
             bounds: zoom::NOTHING,
             seen: zoom::NOTHING,
+            acting,
             arrows: wanted.arrows.unwrap_or(contact && whole.dim == 2),
             units: wanted.units.clone().unwrap_or_else(|| Units::of(results)),
-            notes: shown.notes,
+            notes,
         };
         scene.survey(wanted, frames, &sheets)?;
         Ok(scene)
@@ -218,6 +234,14 @@ impl<'a> Scene<'a> {
                 bounds[0][c] = f64::min(bounds[0][c], low[c]);
                 bounds[1][c] = f64::max(bounds[1][c], high[c]);
             }
+        }
+        if self.acting.is_some() {
+            // Room for symbols.
+            let room = 0.08
+                * (0..2)
+                    .map(|c| bounds[1][c] - bounds[0][c])
+                    .fold(0.0, f64::max);
+            bounds = [bounds[0].map(|x| x - room), bounds[1].map(|x| x + room)];
         }
         let carried = field.is_some_and(Field::carried);
         if carried {
@@ -308,6 +332,10 @@ impl<'a> Scene<'a> {
             range: colours.range,
             extremes,
             in_view: self.in_view,
+            acts: self
+                .acting
+                .as_ref()
+                .map(|a| Acts::of(&a.at(self.results.frames[frame].time))),
             statuses: self.results.statuses_at(self.results.frames[frame].time),
             strips: paint::strip_pieces(&self.look, &values).len(),
             ..Facts::default()
@@ -327,6 +355,9 @@ impl<'a> Scene<'a> {
         {
             (facts.peak, extremes[1], facts.place) = (Some(most), most, sheet.place(point, 1.0));
         }
+        // Rounding is no place.
+        let small = 1e-6 * skin.size();
+        facts.place = facts.place.map(|x| if x.abs() < small { 0.0 } else { x });
         if !colours.status {
             facts.words = facts.said(self.given, skin.dim);
         }
@@ -369,6 +400,9 @@ impl<'a> Scene<'a> {
         if let Some((sheet, point, most)) = self.peak(&sheets, facts.time) {
             marks::peak(sheet, point, most, &drawn, &self.units, canvas);
         }
+        if let Some(acting) = &self.acting {
+            self.symbols(&acting.at(facts.time), &points, &drawn, canvas);
+        }
         self.headline(frame, em, [margin, width - 2.0 * margin], canvas);
         let inset = self.seen != self.bounds;
         if let Some(field) = &look.field {
@@ -393,6 +427,47 @@ impl<'a> Scene<'a> {
         let corner = [margin + 2.2 * em, height - 2.6 * em];
         legend::triad(&look.camera, skin.dim, corner, em, canvas);
         Ok(facts)
+    }
+
+    /// Draws supports and loads where their points are.
+    fn symbols(
+        &self,
+        all: &[Symbol],
+        points: &PointFields,
+        drawn: &marks::Drawn,
+        canvas: &mut dyn Canvas,
+    ) {
+        let (look, skin) = (&self.look, &self.look.skin);
+        let moved = look.moved(points);
+        let known = skin.points.iter().copied().zip(0u32..);
+        let local: BTreeMap<usize, u32> = known.collect();
+        let placed = all.iter().filter_map(|symbol| {
+            let place = match symbol.point {
+                None => symbol.place,
+                Some(point) => {
+                    let i = *local.get(&point).filter(|i| look.draws(**i))?;
+                    moved[i as usize]
+                }
+            };
+            Some((*symbol, place))
+        });
+        let placed: Vec<(Symbol, [f64; 3])> = placed.collect();
+        let boxes: Vec<[[f64; 3]; 2]> = (0..skin.ends.len()).map(|b| skin.bounds_of(b)).collect();
+        // Supports stand outside of their body.
+        let sign = |symbol: &Symbol| {
+            let axis = (0..3).find(|&c| symbol.vector[c] != 0.0).unwrap_or(0);
+            let body = symbol.point.and_then(|p| local.get(&p));
+            let middle = body.map(|&i| {
+                let [low, high] = boxes[skin.owner[i as usize] as usize];
+                (low[axis] + high[axis]) / 2.0
+            });
+            if middle.is_some_and(|middle| symbol.place[axis] > middle) {
+                1.0
+            } else {
+                -1.0
+            }
+        };
+        symbols::draw(&placed, &sign, drawn, canvas);
     }
 
     /// Title and time, from the left margin over a width.
