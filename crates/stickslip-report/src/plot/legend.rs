@@ -62,7 +62,7 @@ pub fn bar(shown: &Shown, at: [f64; 2], size: [f64; 2], em: f64, canvas: &mut dy
     if colours.status {
         for (number, (name, colour)) in colour::STATUSES.iter().enumerate() {
             let count = statuses.and_then(|counts| counts.get(number).copied());
-            let there = values.iter().any(|v| *v == number as f64);
+            let there = values.contains(&(number as f64));
             if number < colour::TIED || there {
                 let count = count.map_or_else(String::new, |n| format!(" ({n})"));
                 key(*colour, &format!("{name}{count}"), &mut y);

@@ -182,9 +182,10 @@ impl<'a> Scene<'a> {
             });
         notes.extend(shown.notes);
         let look = Look {
-            outline: (wanted.loads)
-                .then(|| symbols::outline(&skin))
-                .unwrap_or_default(),
+            outline: match wanted.loads {
+                true => symbols::outline(&skin),
+                false => Vec::new(),
+            },
             obstacles: obstacle::outlines(&results.problem, &skin),
             camera: Camera::new(view, skin.dim),
             shown: bodies,
@@ -302,7 +303,7 @@ impl<'a> Scene<'a> {
     /// The point that presses most where a side of it is drawn, and its pressure.
     fn peak<'s>(&self, sheets: &'s [Sheet], time: f64) -> Option<(&'s Sheet, usize, f64)> {
         let field = self.look.field.as_ref();
-        if !field.is_some_and(|f| f.array == "CPRESS") {
+        if field.is_none_or(|f| f.array != "CPRESS") {
             return None;
         }
         let peaks = sheets.iter().filter_map(|sheet| {
