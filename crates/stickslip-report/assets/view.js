@@ -349,13 +349,9 @@ report.attempt(async () => {
       return element("div", { class: "key" }, swatch, words);
     };
     if (field.status) {
-      const offset = n * state.frame;
-      const counts = [0, 0, 0];
-      for (let i = 0; i < n; i++) {
-        const q = state.values[offset + i];
-        if (q !== NOTHING) counts[Math.min(2, Math.max(0, Math.round(back(field.range, q))))]++;
-      }
-      model.statuses.forEach((s, i) => place.append(key(s.colour, `${s.name} (${counts[i]})`)));
+      // Contact points as the run has counted them: nodes of both sides would be more.
+      const counts = model.counts[state.frame];
+      model.statuses.forEach((s, i) => place.append(key(s.colour, counts ? `${s.name} (${counts[i]})` : s.name)));
     } else {
       const anchors = signed ? model.signed : field.carried ? model.carried : model.ordered;
       const ramp = element("div", { class: "ramp" });

@@ -47,13 +47,17 @@ pub const SIGNED: &[Rgb] = &[
 /// Where there is no value.
 pub const NOTHING: Rgb = [196, 200, 206];
 
-/// The status of contact: name and colour, by its number. Blue and vermilion of the palette of Okabe and Ito, and a yellow that is
-/// pale, as most of a surface is open.
-pub const STATUSES: [(&str, Rgb); 3] = [
+/// The status of contact: name and colour, by its number. Blue, vermilion and green of the palette of Okabe and Ito, and a yellow that is
+/// pale, as most of a surface is open. Tied surfaces have no status in files: they neither stick nor slip.
+pub const STATUSES: [(&str, Rgb); 4] = [
     ("open", [243, 229, 150]),
     ("stick", [0, 114, 178]),
     ("slip", [213, 94, 0]),
+    ("tied", [0, 158, 115]),
 ];
+
+/// The number of what is tied.
+pub const TIED: usize = 3;
 
 /// The colour at `t` between 0 and 1 along a list of anchors.
 pub fn along(anchors: &[Rgb], t: f64) -> Rgb {
@@ -72,7 +76,7 @@ pub fn along(anchors: &[Rgb], t: f64) -> Rgb {
 }
 
 /// The colour of a value: by its place in a range, along one of the two lists.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Scale {
     /// What the ends of the list stand for.
     pub range: [f64; 2],
@@ -82,6 +86,10 @@ pub struct Scale {
     pub status: bool,
     /// Whether they are what a surface carries, from zero.
     pub carried: bool,
+    /// How many colours there are; as many as there are values if not given.
+    pub bands: Option<u32>,
+    /// What is below is drawn as nothing.
+    pub threshold: Option<f64>,
 }
 
 impl Scale {
@@ -94,18 +102,29 @@ impl Scale {
         }
     }
 
+    /// Whether a value is drawn as nothing.
+    pub fn nothing(&self, value: f64) -> bool {
+        value.is_nan() || self.threshold.is_some_and(|low| value < low)
+    }
+
     /// The colour of a value.
     pub fn colour(&self, value: f64) -> Rgb {
-        if value.is_nan() {
+        if self.nothing(value) {
             return NOTHING;
         }
         if self.status {
-            return STATUSES[value.round().clamp(0.0, 2.0) as usize].1;
+            return STATUSES[value.round().clamp(0.0, TIED as f64) as usize].1;
         }
         let width = self.range[1] - self.range[0];
         let t = match width > 0.0 {
             true => (value - self.range[0]) / width,
             false => 0.5,
+        };
+        // A band has the colour of its middle, the first and the last those of the ends.
+        let t = match self.bands.map(f64::from) {
+            Some(n) if n > 1.0 => (t.clamp(0.0, 1.0) * n).floor().min(n - 1.0) / (n - 1.0),
+            Some(_) => 0.5,
+            None => t,
         };
         along(self.anchors(), t)
     }
@@ -129,12 +148,29 @@ mod tests {
         assert_eq!(along(SIGNED, f64::NAN), NOTHING);
         let scale = Scale {
             range: [1.0, 1.0],
-            signed: false,
-            status: false,
-            carried: false,
+            ..Scale::default()
         };
         assert_eq!(scale.colour(1.0), ORDERED[4]);
         assert_eq!(hex([1, 160, 255]), "#01a0ff");
+    }
+
+    #[test]
+    fn bands_have_one_colour_each_and_what_is_below_the_threshold_has_none() {
+        let scale = Scale {
+            range: [0.0, 8.0],
+            bands: Some(4),
+            threshold: Some(1.0),
+            ..Scale::default()
+        };
+        let colours: Vec<Rgb> = (0..80).map(|i| scale.colour(f64::from(i) / 10.0)).collect();
+        assert!(colours[..10].iter().all(|c| *c == NOTHING));
+        for (band, colour) in [(10..20, ORDERED[0]), (60..80, ORDERED[8])] {
+            assert!(colours[band].iter().all(|c| *c == colour));
+        }
+        let mut different = colours[10..].to_vec();
+        different.dedup();
+        assert_eq!(different.len(), 4);
+        assert_eq!(scale.colour(100.0), ORDERED[8]);
     }
 
     #[test]

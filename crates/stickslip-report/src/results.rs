@@ -162,6 +162,26 @@ impl Results {
         names
     }
 
+    /// The last row of the history at a time.
+    fn row_at(&self, time: f64) -> Option<usize> {
+        let times = self.history.column("TIME")?;
+        let room = 1e-9 * time.abs();
+        times.iter().rposition(|t| (t - time).abs() <= room)
+    }
+
+    /// How many contact points are open, stick and slip at a time, as the run has counted them; `None` where the history does not say.
+    pub(crate) fn statuses_at(&self, time: f64) -> Option<[usize; 3]> {
+        let row = self.row_at(time)?;
+        let of = |name: &str| Some(*self.history.column(name)?.get(row)? as usize);
+        Some([of("OPEN")?, of("STICK")?, of("SLIP")?])
+    }
+
+    /// The largest pressure of an interface at a time, as the run has found it; `None` where the history does not say.
+    pub(crate) fn peak_at(&self, interface: &str, time: f64) -> Option<f64> {
+        let column = self.history.column(&format!("{interface}.CPRESSMAX"))?;
+        column.get(self.row_at(time)?).copied()
+    }
+
     /// Points, cells and data of a frame.
     ///
     /// # Errors

@@ -22,6 +22,11 @@ impl Sheet {
         array.filter(|a| a.components == components)
     }
 
+    /// Whether the file has this field.
+    pub fn has(&self, name: &str) -> bool {
+        self.grid.points.arrays.contains_key(name)
+    }
+
     /// A field of one number a point; nothing where the file has none.
     pub fn numbers(&self, name: &str) -> &[f64] {
         self.array(name, 1).map_or(&[], |a| &a.values)
@@ -67,15 +72,18 @@ impl Sheet {
         self.grid.types.iter().all(|t| *t <= 3) && self.grid.types.contains(&3)
     }
 
-    /// The points that press.
+    /// The points that press: with more than a thousandth of the largest pressure, or of what is ten times the usual one, so that a single node does not count alone.
     pub fn pressing(&self) -> Vec<usize> {
-        let most = self.peak().map_or(f64::INFINITY, |(_, most)| most);
-        let pressures = self.numbers("CPRESS").iter().enumerate();
-        pressures
-            // Part of the largest pressure that counts as pressing.
-            .filter(|(_, p)| **p > 1e-3 * most)
-            .map(|(i, _)| i)
-            .collect()
+        let pressures = self.numbers("CPRESS");
+        let mut all: Vec<f64> = pressures.iter().copied().filter(|p| *p > 0.0).collect();
+        all.sort_by(f64::total_cmp);
+        let usual = all.get(all.len() / 2).copied().unwrap_or(f64::INFINITY);
+        let most = all.last().map_or(usual, |most| most.min(10.0 * usual));
+        let pressing = pressures
+            .iter()
+            .enumerate()
+            .filter(|(_, p)| **p > 1e-3 * most);
+        pressing.map(|(i, _)| i).collect()
     }
 
     /// The largest relative motion of the sides `[length]` that displacements taken larger would show: along the normal, which opens or closes gaps, and across.
@@ -125,11 +133,8 @@ impl Results {
         })
     }
 
-    /// The largest pressure of each frame; empty where there are no surfaces.
+    /// The largest pressure of each frame; zero where there are no surfaces.
     fn peaks(&self) -> Result<Vec<f64>, Error> {
-        if self.surfaces.is_empty() {
-            return Ok(Vec::new());
-        }
         let most = |sheets: Vec<Sheet>| {
             let peaks = sheets.iter().filter_map(Sheet::peak);
             peaks.map(|(_, p)| p).fold(0.0, f64::max)
@@ -145,10 +150,15 @@ impl Results {
     /// # Errors
     /// As [`Results::sheets`].
     pub fn of_peak(&self) -> Result<usize, Error> {
-        let peaks = self.peaks()?;
-        let last = self.frames.len().saturating_sub(1);
-        let most = peaks.iter().fold(0.0, |m: f64, p| m.max(*p));
-        let near = peaks.iter().rposition(|p| most > 0.0 && *p >= 0.995 * most);
-        Ok(near.unwrap_or(last))
+        Ok(latest_largest(&self.peaks()?))
     }
+}
+
+/// The place of the largest number; of those that come near it the last, which is where a load that is held ends. The last of all where none is above zero.
+pub fn latest_largest(numbers: &[f64]) -> usize {
+    let most = numbers.iter().fold(0.0, |m: f64, n| m.max(*n));
+    let near = numbers
+        .iter()
+        .rposition(|n| most <= 0.0 || *n >= 0.995 * most);
+    near.unwrap_or(0)
 }

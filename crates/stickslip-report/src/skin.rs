@@ -111,7 +111,7 @@ pub struct Skin {
     pub triangles: Vec<[u32; 3]>,
     /// Edges of cells, without diagonals, those of a body together.
     pub edges: Vec<[u32; 2]>,
-    /// In 2D the edges at the rim of the bodies; empty in 3D.
+    /// In 2D the edges at the rim of the bodies, the body at the left of each; empty in 3D.
     pub rim: Vec<[u32; 2]>,
     /// The body of each point.
     pub owner: Vec<u32>,
@@ -180,8 +180,8 @@ impl Skin {
         for body in 0..bodies {
             let (own, others) = rest.split_at(rest.partition_point(|f| f.body == body));
             rest = others;
-            // How often an edge is met: once at the rim.
-            let mut edges: BTreeMap<[u32; 2], usize> = BTreeMap::new();
+            // How often an edge is met, once at the rim, and its direction around the cell.
+            let mut edges: BTreeMap<[u32; 2], (usize, [u32; 2])> = BTreeMap::new();
             for face in own {
                 let local: Vec<u32> = face
                     .points
@@ -202,7 +202,8 @@ impl Skin {
                 }
                 let n = corners(nodes);
                 let mut edge = |a: u32, b: u32| {
-                    *edges.entry([a.min(b), a.max(b)]).or_default() += 1;
+                    let met = edges.entry([a.min(b), a.max(b)]);
+                    met.or_insert((0, [a, b])).0 += 1;
                 };
                 for k in 0..n {
                     let (a, b) = (local[k], local[(k + 1) % n]);
@@ -216,8 +217,8 @@ impl Skin {
                 }
             }
             if dim == 2 {
-                let rim = edges.iter().filter(|(_, times)| **times == 1);
-                skin.rim.extend(rim.map(|(edge, _)| *edge));
+                let rim = edges.values().filter(|(times, _)| *times == 1);
+                skin.rim.extend(rim.map(|(_, edge)| *edge));
             }
             skin.edges.extend(edges.into_keys());
             skin.ends.push([skin.triangles.len(), skin.edges.len()]);
@@ -239,14 +240,13 @@ impl Skin {
 
     /// The box around all points: lowest and highest corner.
     pub fn bounds(&self) -> [[f64; 3]; 2] {
-        let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
-        for x in &self.positions {
-            for c in 0..3 {
-                bounds[0][c] = bounds[0][c].min(x[c]);
-                bounds[1][c] = bounds[1][c].max(x[c]);
-            }
-        }
-        bounds
+        around(self.positions.iter())
+    }
+
+    /// The box around the points of a body.
+    pub fn bounds_of(&self, body: usize) -> [[f64; 3]; 2] {
+        let all = self.positions.iter().zip(&self.owner);
+        around(all.filter(|(_, b)| **b as usize == body).map(|(x, _)| x))
     }
 
     /// The diagonal of that box `[length]`.
@@ -259,6 +259,17 @@ impl Skin {
             0.0
         }
     }
+}
+
+fn around<'a>(points: impl Iterator<Item = &'a [f64; 3]>) -> [[f64; 3]; 2] {
+    let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    for x in points {
+        for c in 0..3 {
+            bounds[0][c] = bounds[0][c].min(x[c]);
+            bounds[1][c] = bounds[1][c].max(x[c]);
+        }
+    }
+    bounds
 }
 
 #[cfg(test)]
@@ -403,6 +414,12 @@ mod tests {
         assert_eq!(skin.triangles.len(), 4);
         assert_eq!(skin.edges.len(), 8);
         assert_eq!(skin.rim.len(), 6);
+        // The body is at the left: around it once, against the clock.
+        let around: f64 = (skin.rim.iter())
+            .map(|e| e.map(|i| skin.positions[i as usize]))
+            .map(|[a, b]| (a[0] * b[1] - b[0] * a[1]) / 2.0)
+            .sum();
+        assert!((around - 2.0).abs() < 1e-12);
         assert_eq!(skin.bounds(), [[0., 0., 0.], [2., 1., 0.]]);
     }
 }

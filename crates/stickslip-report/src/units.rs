@@ -72,6 +72,7 @@ pub fn behind(unit: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::field::Part;
 
     #[test]
     fn units_are_those_that_are_said() {
@@ -79,7 +80,7 @@ mod tests {
         let field = |name: &str| Field {
             name: name.into(),
             array: name.into(),
-            component: Some(0),
+            part: Part::Component(0),
         };
         assert_eq!(units.of_field(&field("CPRESS")), "MPa");
         assert_eq!(units.of_field(&field("CSLIP1")), "mm");

@@ -6,7 +6,7 @@ use stickslip::io::write_atomically;
 use stickslip::problem::Problem;
 use stickslip::results::{Claim, Observer, ResultFiles};
 use stickslip::run::Simulation;
-use stickslip_report::plot::{self, Along, Picture, View, When, Zoom};
+use stickslip_report::plot::{self, Along, Apart, Colours, Facts, Picture, View, When, Zoom};
 use stickslip_report::{Limits, Results, page, report};
 
 const EVIL: &str = "</script><b id=\"x\">&'`<!--";
@@ -409,7 +409,7 @@ fn pictures_are_made_of_every_field_and_time() {
                 ..small.clone()
             },
             Picture {
-                mirror: "x=-0.5".parse().ok(),
+                mirrors: vec!["x=-0.5".parse().unwrap()],
                 ..small.clone()
             },
             Picture {
@@ -421,7 +421,7 @@ fn pictures_are_made_of_every_field_and_time() {
                 ..small.clone()
             },
         ] {
-            assert_ne!(bytes(small.clone()), bytes(change.clone()), "{change:?}");
+            assert!(bytes(small.clone()) != bytes(change.clone()), "{change:?}");
         }
         let cut = Picture {
             cut: "x=-1".parse().ok(),
@@ -472,6 +472,278 @@ fn pictures_are_made_of_every_field_and_time() {
         }
         let error = picture(Some(Path::new("x.jpg")), small).unwrap_err();
         assert!(error.contains(".png or .svg"), "{error}");
+    }
+}
+
+fn facts(folder: &Folder, wanted: &Picture) -> Facts {
+    let mut all = plot::facts(&folder.0, wanted).unwrap();
+    assert_eq!(all.len(), 1);
+    all.remove(0)
+}
+
+#[test]
+fn contact_between_bodies_in_space_is_seen() {
+    let folder = Folder::new("apart");
+    run(&stacked("solid", "Two blocks", "b"), &folder.0);
+    let of = |wanted: Picture| facts(&folder, &wanted);
+    let seen = of(Picture::default());
+    assert_eq!(seen.field.as_deref(), Some("CPRESS"));
+    assert_eq!(seen.bodies, ["a", "b"]);
+    assert!(seen.in_view >= Some(0.95), "{seen:?}");
+    // Along the normal, the upper body upwards.
+    assert_eq!(seen.offsets[0], [0.0; 3]);
+    let [x, y, z] = seen.offsets[1];
+    assert!(z > 0.1 && x.hypot(y) < 1e-3 * z, "{seen:?}");
+    let there = of(Picture {
+        apart: Apart::By(0.0),
+        ..Picture::default()
+    });
+    assert_eq!(
+        (there.offsets, there.in_view),
+        (vec![[0.0; 3]; 2], Some(0.0))
+    );
+    let from_above = of(Picture {
+        view: Some(View::Along(2, 1.0)),
+        ..Picture::default()
+    });
+    // Nothing comes apart on paper from there: the body whose face looks up is shown.
+    assert_eq!(
+        (from_above.bodies, from_above.in_view),
+        (vec!["a".into()], Some(1.0))
+    );
+    for name in ["a", "b"] {
+        let one = of(Picture {
+            bodies: vec![name.into()],
+            ..Picture::default()
+        });
+        assert_eq!(
+            (one.bodies, one.in_view),
+            (vec![name.to_string()], Some(1.0))
+        );
+    }
+    let stress = of(Picture {
+        field: Some("MISES".into()),
+        ..Picture::default()
+    });
+    assert_eq!((stress.offsets, stress.in_view), (vec![[0.0; 3]; 2], None));
+}
+
+#[test]
+fn colours_are_those_that_are_asked_for() {
+    let folder = Folder::new("colours");
+    run(&stacked("plane-strain", "Two blocks", "b"), &folder.0);
+    let of = |colours: Colours| {
+        let wanted = Picture {
+            colours,
+            ..Picture::default()
+        };
+        facts(&folder, &wanted)
+    };
+    let auto = of(Colours::default());
+    let most = auto.extremes.unwrap()[1];
+    assert!(
+        auto.range == [0.0, most] && auto.peak == Some(most),
+        "{auto:?}"
+    );
+    let given = of(Colours {
+        range: Some([-1.0, most / 2.0]),
+        ..Colours::default()
+    });
+    assert_eq!(given.range, [-1.0, most / 2.0]);
+    assert_eq!(given.words, auto.words);
+    let all = of(Colours {
+        threshold: Some(2.0 * most),
+        ..Colours::default()
+    });
+    assert!(auto.strips > 0 && all.strips == 0);
+}
+
+#[test]
+fn each_field_is_drawn_at_its_time_of_interest() {
+    let folder = Folder::new("interest");
+    // It is pressed and slid, then let go.
+    let text = stacked("plane-strain", "Two blocks", "b")
+        .replace("x = 1e-4", "x = 4e-3")
+        .replace(
+            "friction.coulomb = { mu = 0.3 }",
+            "friction.coulomb = { mu = 0.3 }\nwear.archard = { coefficient = 1e-16 }",
+        )
+        .replace("y = -1e-3", "y = -1e-3\namplitude = \"down\"")
+        .replace(
+            "[[step]]",
+            "[amplitude.down]\ntable = [[0, 0], [0.25, 0], [0.5, 1], [1, 0.2]]\n[[step]]",
+        )
+        .replace("increments.fixed = 3", "increments.fixed = 4");
+    run(&text, &folder.0);
+    let of = |field: &str, when: When| {
+        let wanted = Picture {
+            field: Some(field.into()),
+            when,
+            ..Picture::default()
+        };
+        facts(&folder, &wanted)
+    };
+    let times = ["CPRESS", "CSTATUS", "U2", "CWEAR", "CDISS"].map(|f| of(f, When::Peak).time);
+    assert_eq!(times, [0.5, 0.5, 0.5, 1.0, 1.0]);
+    let worn = of("CWEAR", When::Peak);
+    assert!(
+        worn.extremes.unwrap()[1] > 0.0 && worn.strips > 0,
+        "{worn:?}"
+    );
+    let first = of("CWEAR", When::Number(1));
+    assert_eq!((first.extremes, first.strips), (Some([0.0; 2]), 0));
+    assert_eq!(first.words, ["CWEAR is zero everywhere at this time"]);
+}
+
+#[test]
+fn invariants_of_the_stress_are_drawn() {
+    let folder = Folder::new("invariants");
+    run(&stacked("plane-strain", "T", "b"), &folder.0);
+    let extremes = |field: &str| {
+        let wanted = Picture {
+            field: Some(field.into()),
+            ..Picture::default()
+        };
+        let facts = facts(&folder, &wanted);
+        (facts.field.unwrap(), facts.extremes.unwrap())
+    };
+    let [(name, s1), (_, s2), (_, s3)] = ["S1", "S2", "S3"].map(extremes);
+    assert_eq!(name, "S1");
+    for k in 0..2 {
+        assert!(s1[k] >= s2[k] && s2[k] >= s3[k], "{s1:?} {s2:?} {s3:?}");
+    }
+    let (_, mises) = extremes("MISES");
+    let (_, tresca) = extremes("TRESCA");
+    // Tresca's stress is between that of von Mises and 2/√3 of it.
+    let ratio = tresca[1] / mises[1];
+    assert!((1.0 - 1e-9..1.155).contains(&ratio), "{ratio}");
+    assert!(s3[0] < 0.0 && extremes("PRESS").1[1] > 0.0);
+    assert_eq!(extremes("umag"), extremes("U"));
+}
+
+#[test]
+fn supports_and_loads_are_those_of_the_problem() {
+    for space in ["solid", "plane-strain"] {
+        let folder = Folder::new(&format!("loads-{space}"));
+        let pull = match space {
+            "solid" => "[7e4, 0, 0]",
+            _ => "[7e4, 0]",
+        };
+        let load =
+            format!("[load.pull]\nset = \"b.right\"\ntraction = {{ value = {pull} }}\n[[step]]");
+        run(
+            &stacked(space, "T", "b").replace("[[step]]", &load),
+            &folder.0,
+        );
+        let of = |when: When, loads: bool| {
+            let wanted = Picture {
+                when,
+                loads,
+                ..Picture::default()
+            };
+            facts(&folder, &wanted).acts
+        };
+        assert_eq!(of(When::Last, false), None);
+        let last = of(When::Last, true).unwrap();
+        // Points of a face times components.
+        let held = if space == "solid" { [12, 12] } else { [6, 6] };
+        let depth = if space == "solid" { [4, 0] } else { [0, 0] };
+        assert_eq!(
+            [last.held, last.prescribed],
+            [held[0] + depth[0], held[1] - depth[0]],
+            "{space}"
+        );
+        let [x, y, z] = last.force;
+        assert!(
+            (x - 7e4).abs() < 1e-6 && y.abs() + z.abs() < 1e-6,
+            "{last:?}"
+        );
+        // It grows over the step.
+        let first = of(When::Number(1), true).unwrap();
+        assert!(first.force[0] < 0.5 * x, "{first:?}");
+        let svg = folder.file("l.svg");
+        let wanted = Picture {
+            loads: true,
+            ..Picture::default()
+        };
+        let (_, notes) = plot::picture(&folder.0, Some(&svg), &wanted).unwrap();
+        assert_eq!(notes.iter().filter(|n| n.contains("not drawn")).count(), 0);
+        let text = std::fs::read_to_string(&svg).unwrap();
+        for word in ["held", "prescribed displacement", "load", "undeformed"] {
+            assert!(text.contains(word), "{word}");
+        }
+        // Without the problem the picture is made all the same.
+        std::fs::remove_file(folder.file("problem.toml")).unwrap();
+        let (_, notes) = plot::picture(&folder.0, Some(&svg), &wanted).unwrap();
+        assert!(
+            notes
+                .iter()
+                .any(|n| n.contains("supports and loads are not drawn")),
+            "{notes:?}"
+        );
+    }
+}
+
+/// Statuses and the largest pressure of the last time: in the history, the summary, the surface, the table and the picture.
+#[test]
+fn run_picture_report_and_files_count_the_same_points() {
+    for (name, change) in [
+        ("mortar", ""),
+        ("quadratic", ""),
+        ("nodes", "discretisation.node-to-facet = {}\n"),
+        ("penalty", "enforcement.penalty = { stiffness = 1e13 }\n"),
+    ] {
+        let folder = Folder::new(&format!("count-{name}"));
+        // Wider than what it is pressed on, from the middle outwards, so that a part is open, and it slips near the edge.
+        let text = stacked("plane-strain", "T", "b")
+            .replace("cells = [2, 1]", "cells = [7, 2]")
+            .replace("[support.base]", &format!("{change}[support.base]"))
+            .replace("to = [1, 2]", "to = [2, 2]")
+            .replace(
+                "secondary = \"b.bottom\"",
+                "roles = \"as-named\"\nsecondary = \"b.bottom\"",
+            )
+            .replace("x = 1e-4", "x = 2e-3");
+        let text = match name {
+            "quadratic" => text.replace("cells = [7, 2]", "cells = [7, 2], element = \"quad8\""),
+            _ => text,
+        };
+        run(&text, &folder.0);
+        let results = Results::open(&folder.0).unwrap();
+        let last = |column: &str| *results.history.column(column).unwrap().last().unwrap();
+        let history = ["OPEN", "STICK", "SLIP"].map(|c| last(c) as usize);
+        assert!(
+            history.iter().filter(|n| **n > 0).count() >= 2,
+            "{name}: {history:?}"
+        );
+        let points = &results.summary["interfaces"][0]["points"];
+        let summary = ["open", "stick", "slip"].map(|n| points[n].as_u64().unwrap() as usize);
+        assert_eq!(summary, history, "{name}");
+        let table = stickslip::io::csv::read(&folder.file("interfaces/joint.csv")).unwrap();
+        let statuses = table.column("CSTATUS").unwrap();
+        let rows = [0.0, 1.0, 2.0].map(|s| statuses.iter().filter(|v| **v == s).count());
+        assert_eq!(rows, history, "{name}");
+        let picture = |field: &str| {
+            let wanted = Picture {
+                field: Some(field.into()),
+                when: When::Last,
+                ..Picture::default()
+            };
+            facts(&folder, &wanted)
+        };
+        assert_eq!(picture("CSTATUS").statuses, Some(history), "{name}");
+        let (text, _) = page(&results, Limits::default()).unwrap();
+        let said = format!("{history:?}").replace(' ', "");
+        assert!(text.contains(&format!("{said}]")), "{name}: {said}");
+        let pressure = picture("CPRESS");
+        assert_eq!(pressure.peak, Some(last("joint.CPRESSMAX")), "{name}");
+        let largest = table
+            .column("CPRESS")
+            .unwrap()
+            .iter()
+            .fold(0.0, |m: f64, p| m.max(*p));
+        assert_eq!(Some(largest), pressure.peak, "{name}");
+        assert_eq!(pressure.extremes.unwrap()[1], largest, "{name}");
     }
 }
 

@@ -2,7 +2,9 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::ValueHint;
-use stickslip_report::plot::{self, Along, Picture, Plane, Units, View, When, Zoom};
+use stickslip_report::plot::{
+    self, Along, Apart, Colours, Picture, Plane, Units, View, When, Zoom,
+};
 
 use super::completions::Words;
 use crate::failure::{Failure, Outcome};
@@ -22,7 +24,7 @@ pub struct Arguments {
     framing: Framing,
     /// Draw what this interface carries along its surface: in a plane pressure, shear and status over the arc, in space maps of them, in plan or unrolled. With --field that
     /// field alone, in a plane, with --time all a line a time; of CWEAR and CDISS that of the surface opposite as well, in a file of its own (NAME-opposite.svg).
-    #[arg(long, value_name = "INTERFACE", conflicts_with_all = ["view", "body", "at", "arrows", "cut", "mirror", "history"])]
+    #[arg(long, value_name = "INTERFACE", conflicts_with_all = ["view", "bodies", "range", "bands", "threshold", "apart", "at", "arrows", "cut", "mirror", "loads", "history"])]
     along: Option<String>,
     /// Tractions as arrows, in the colours of stick and slip: by themselves in contact views of plane problems.
     #[arg(long, value_name = "yes|no", value_parser = yes)]
@@ -30,9 +32,13 @@ pub struct Arguments {
     /// Draw only cells whose middle is below this plane, to look inside; through the middle of the model if no place is given.
     #[arg(long, value_name = "x|y|z[=PLACE]", value_parser = plane)]
     cut: Option<Plane>,
-    /// Draw the other half beyond a plane of symmetry as well; at the side of the model that is nearer to zero if no place is given.
+    /// Draw the other half beyond a plane of symmetry as well; at the side of the model that is nearer to zero if no place is given. May be repeated: two planes make a whole of a
+    /// quarter.
     #[arg(long, value_name = "x|y|z[=PLACE]", value_parser = plane)]
-    mirror: Option<Plane>,
+    mirror: Vec<Plane>,
+    /// Draw supports and loads as symbols, and the outline of the bodies before any displacement. Mesh files of the problem are looked for beside the folder of the results.
+    #[arg(long)]
+    loads: bool,
     /// Units of length and stress for the legend: `mm,MPa`. Numbers stay as they are.
     #[arg(long, value_name = "LENGTH,STRESS", value_parser = units)]
     units: Option<Units>,
@@ -40,22 +46,22 @@ pub struct Arguments {
     #[arg(long, value_name = "WxH", default_value = "1200x900", value_parser = size)]
     size: [u32; 2],
     /// Plot these columns of history.csv instead of the bodies.
-    #[arg(long, value_name = "COLUMN,...", value_delimiter = ',', conflicts_with_all = ["field", "view", "body"])]
+    #[arg(long, value_name = "COLUMN,...", value_delimiter = ',', conflicts_with_all = ["field", "view", "bodies", "range", "bands", "threshold", "apart", "loads"])]
     history: Vec<String>,
     /// The table whose columns are meant, where it is not history.csv: `modes-2-map.csv`, say. The picture is named after it.
     #[arg(long, value_name = "FILE", requires = "history")]
     table: Option<String>,
     /// Draw which runs of a sweep stick, slip in part and slide, over two of its axes: `amplitude,load`, the ends of their names will do.
-    #[arg(long, value_name = "ACROSS,UP", value_parser = pair, conflicts_with_all = ["along", "field", "view", "body", "history"])]
+    #[arg(long, value_name = "ACROSS,UP", value_parser = pair, conflicts_with_all = ["along", "field", "view", "bodies", "history"])]
     regimes: Option<Pair>,
     /// Draw in which runs of a sweep steady sliding is stable, flutters and diverges, over two of its axes, with the boundary that `sweep --critical` has found.
-    #[arg(long, value_name = "ACROSS,UP", value_parser = pair, conflicts_with_all = ["along", "field", "view", "body", "history", "regimes"])]
+    #[arg(long, value_name = "ACROSS,UP", value_parser = pair, conflicts_with_all = ["along", "field", "view", "bodies", "history", "regimes"])]
     stability: Option<Pair>,
     /// Draw how modes couple: frequencies and growth of all over a column of a map (`pad.out/modes-2-map.csv --coupling mu`) or an axis of a sweep, a picture each.
-    #[arg(long, value_name = "COLUMN", conflicts_with_all = ["along", "field", "view", "body", "history", "regimes", "stability"])]
+    #[arg(long, value_name = "COLUMN", conflicts_with_all = ["along", "field", "view", "bodies", "history", "regimes", "stability"])]
     coupling: Option<String>,
     /// Draw how strong a vibration is over time and frequency, from the table of its spectra: `pad.out/modes-3-waterfall.csv --waterfall`.
-    #[arg(long, conflicts_with_all = ["along", "field", "view", "body", "history", "regimes", "stability", "coupling"])]
+    #[arg(long, conflicts_with_all = ["along", "field", "view", "bodies", "history", "regimes", "stability", "coupling"])]
     waterfall: bool,
     /// The column along the horizontal axis.
     #[arg(
@@ -70,11 +76,12 @@ pub struct Arguments {
 /// What is seen, and from where.
 #[derive(Debug, clap::Args)]
 struct Framing {
-    /// The field in colour, as ParaView lists it, or a component: CPRESS, CSTATUS, MISES, U, U1, S11. The contact pressure if not
+    /// The field in colour, as ParaView lists it, a component or an invariant: CPRESS, CSTATUS, MISES, U, U1, S11, S1 (the largest principal stress). The contact pressure if not
     /// given, or the von Mises stress where nothing touches.
     #[arg(long, value_name = "NAME", value_parser = Words(fields), hide_possible_values = true)]
     field: Option<String>,
-    /// Which of the times at which fields were written: `peak`, at which contact presses most, `last`, a number from 1, or `all`, a file each.
+    /// Which of the times at which fields were written: `peak`, at which contact presses most, or the field that is named is largest, and of wear and dissipation the last; `last`; a
+    /// number from 1; or `all`, a file each.
     #[arg(long, value_name = "peak|last|N|all", default_value = "peak", value_parser = when)]
     time: When,
     /// Factor of the displacements; with `auto` 1 where a field of contact is shown, elsewhere the largest is about a twentieth of the model, or less where
@@ -84,9 +91,21 @@ struct Framing {
     /// From where one looks: iso, x, y, z, -x, -y, -z. Plane models are seen from z.
     #[arg(long, value_name = "VIEW", allow_hyphen_values = true, value_parser = view)]
     view: Option<View>,
-    /// Draw this body only; may be repeated.
-    #[arg(long, value_name = "NAME")]
-    body: Vec<String>,
+    /// Draw these bodies only; may be repeated.
+    #[arg(long, alias = "body", value_name = "NAME,...", value_delimiter = ',')]
+    bodies: Vec<String>,
+    /// What the ends of the colours stand for. If not given, the least and the largest value; where single points are far from the rest, 99 % of the area.
+    #[arg(long, value_name = "LO,HI", allow_hyphen_values = true, value_parser = range)]
+    range: Option<Range>,
+    /// Draw in so many colours.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=64))]
+    bands: Option<u32>,
+    /// What is below is drawn as nothing.
+    #[arg(long, value_name = "LO", allow_hyphen_values = true, value_parser = number)]
+    threshold: Option<f64>,
+    /// How far bodies that touch are drawn apart; with `auto` as far as contact needs to be seen, where a field of contact is shown in space; 0 leaves them where they are.
+    #[arg(long, value_name = "auto|LENGTH", default_value = "auto", value_parser = apart)]
+    apart: Apart,
     /// Which part is seen: `contact`, the patch that presses, `whole`, or how many times nearer. With `auto` the patch, if it is small and a field of contact
     /// is shown.
     #[arg(long, value_name = "auto|contact|whole|X", default_value = "auto", value_parser = zoom)]
@@ -141,6 +160,29 @@ fn plane(text: &str) -> Result<Plane, String> {
 
 fn units(text: &str) -> Result<Units, String> {
     text.parse()
+}
+
+fn apart(text: &str) -> Result<Apart, String> {
+    text.parse()
+}
+
+fn number(text: &str) -> Result<f64, String> {
+    let number = text.trim().parse().ok().filter(|x: &f64| x.is_finite());
+    number.ok_or_else(|| "a number".into())
+}
+
+/// The ends of the colours.
+#[derive(Debug, Clone, Copy)]
+struct Range([f64; 2]);
+
+fn range(text: &str) -> Result<Range, String> {
+    let ends = text
+        .split_once(',')
+        .map(|(low, high)| [number(low), number(high)]);
+    match ends {
+        Some([Ok(low), Ok(high)]) if low < high => Ok(Range([low, high])),
+        _ => Err("the values at the ends of the colours, the lower first: `0,120`".into()),
+    }
 }
 
 fn yes(text: &str) -> Result<bool, String> {
@@ -251,13 +293,20 @@ pub fn draw(arguments: &Arguments) -> Result<(Vec<PathBuf>, Vec<String>), Failur
             when: arguments.framing.time,
             scale: arguments.framing.scale.0,
             view: arguments.framing.view,
-            bodies: arguments.framing.body.clone(),
+            bodies: arguments.framing.bodies.clone(),
             size: arguments.size,
             zoom: arguments.framing.zoom,
             at: arguments.framing.at.map(|at| at.0),
             arrows: arguments.arrows,
             cut: arguments.cut,
-            mirror: arguments.mirror,
+            mirrors: arguments.mirror.clone(),
+            colours: Colours {
+                range: arguments.framing.range.map(|range| range.0),
+                bands: arguments.framing.bands,
+                threshold: arguments.framing.threshold,
+            },
+            apart: arguments.framing.apart,
+            loads: arguments.loads,
             units: arguments.units.clone(),
         };
         return Ok(plot::picture(&arguments.directory, output, &picture)?);

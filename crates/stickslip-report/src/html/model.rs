@@ -163,7 +163,7 @@ fn describe(
     let moving = outlines.iter().any(Outline::moves);
     blobs.extend(obstacles(&outlines, middle, &times, moving));
     let colours = |list: &[crate::colour::Rgb]| json!(list);
-    let statuses: Vec<Value> = crate::colour::STATUSES
+    let statuses: Vec<Value> = crate::colour::STATUSES[..crate::colour::TIED]
         .iter()
         .map(|(name, colour)| json!({"name": name, "colour": colour}))
         .collect();
@@ -184,6 +184,7 @@ fn describe(
         "carried": colours(crate::colour::CARRIED),
         "nothing": crate::colour::NOTHING,
         "statuses": statuses,
+        "counts": times.iter().map(|t| results.statuses_at(*t)).collect::<Vec<_>>(),
     });
     Packed { meta, blobs }
 }

@@ -19,7 +19,7 @@ pub fn ticks(low: f64, high: f64, count: usize) -> Vec<f64> {
     (first..=last).map(|k| k as f64 * step).collect()
 }
 
-/// A number in at most `digits` digits; with a true minus sign.
+/// A number in at most `digits` digits, with an exponent that is a multiple of three where it needs one, and a true minus sign.
 pub fn number(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return "–".into();
@@ -31,17 +31,32 @@ pub fn number(value: f64, digits: usize) -> String {
         // Digits that do not count are zeros: 1860 is read more easily than 1.86e3.
         let unit = 10f64.powi(size.log10().floor() as i32 + 1 - digits as i32);
         format!("{}", (value / unit).round() * unit)
-    } else if (1e-3..1e6).contains(&size) && fits(value, digits) {
+    } else if (1e-4..1e6).contains(&size) && fits(value, digits) {
         let after = (digits as i32 - 1 - size.log10().floor() as i32).clamp(0, 12) as usize;
         trimmed(&format!("{value:.after$}"))
     } else {
-        let text = format!("{value:.*e}", digits - 1);
-        match text.split_once('e') {
-            Some((mantissa, exponent)) => format!("{}e{exponent}", trimmed(mantissa)),
-            None => text,
-        }
+        engineering(value, digits)
     };
     text.replace('-', "−")
+}
+
+/// The least and the largest value in words.
+pub fn between(values: [f64; 2]) -> String {
+    values.map(|x| number(x, 3)).join(" … ")
+}
+
+/// A number with an exponent that is a multiple of three: `123.5e3`.
+fn engineering(value: f64, digits: usize) -> String {
+    let rounded = format!("{value:.*e}", digits - 1);
+    let Some((mantissa, exponent)) = rounded.split_once('e') else {
+        return rounded;
+    };
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let before = exponent.rem_euclid(3);
+    let after = (digits as i32 - 1 - before).max(0) as usize;
+    let mantissa = mantissa.parse().unwrap_or(value) * 10f64.powi(before);
+    let mantissa = trimmed(&format!("{mantissa:.after$}"));
+    format!("{mantissa}e{}", exponent - before)
 }
 
 /// Whether a number has no digits left of the point beyond those that count.
@@ -79,9 +94,14 @@ mod tests {
     fn numbers_are_short() {
         for (value, text) in [
             (0.6000000000000001, "0.6"),
-            (-1.25e-5, "−1.25e−5"),
+            (-1.25e-5, "−12.5e−6"),
             (1e9, "1e9"),
-            (123_456.0, "1.235e5"),
+            (8.4e9, "8.4e9"),
+            (123_456.0, "123.5e3"),
+            (999_960.0, "1e6"),
+            (1.5e-12, "1.5e−12"),
+            (601.2422, "601.2"),
+            (5e-4, "0.0005"),
             (250_000.0, "250000"),
             (9_876.0, "9876"),
             (0.012_346, "0.01235"),

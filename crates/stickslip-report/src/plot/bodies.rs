@@ -2,9 +2,13 @@
 
 use stickslip::problem::nearest;
 
-use super::camera::{View, cross, unit};
-use super::picture::Picture;
+use super::apart::{Contact, Row, Stage, in_view, row, views};
+use super::axis;
+use super::camera::{Camera, View, cross, unit};
+use super::picture::{Apart, Picture, Zoom};
 use crate::skin::Skin;
+
+type Vec3 = [f64; 3];
 
 /// What is drawn.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,36 +17,89 @@ pub struct Shown {
     pub bodies: Vec<bool>,
     /// From where.
     pub view: View,
+    /// By how much each is moved, so that what touches is seen `[length]`.
+    pub offsets: Vec<Vec3>,
+    /// The part of the faces in contact that is seen; `None` where no field of contact in space is drawn.
+    pub in_view: Option<f64>,
     /// For the caption, if it is not everything.
     pub words: Option<String>,
     /// What was chosen for the reader.
     pub notes: Vec<String>,
 }
 
-/// Chooses bodies and view. A field that only surfaces of contact carry is hidden between the bodies in 3D: then one side of the
-/// contact is shown alone, from where it looks, unless bodies or view are given.
-pub fn choose(
-    skin: &Skin,
-    names: &[String],
-    wanted: &Picture,
-    values: &[f64],
-) -> Result<Shown, String> {
-    let count = skin.ends.len();
+/// What is known when bodies and view are chosen.
+#[derive(Clone, Copy)]
+pub struct Known<'a> {
+    /// Names of the bodies.
+    pub names: &'a [String],
+    /// The values of the field on the skin.
+    pub values: &'a [f64],
+    /// All bodies, as they are drawn where nothing is moved.
+    pub stage: Stage<'a>,
+    /// What touches.
+    pub contacts: &'a [Contact],
+}
+
+/// Distances to which bodies are drawn apart, parts of the model, the first that shows enough.
+const DISTANCES: [f64; 8] = [0.0, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0, 1.4];
+
+/// The part of the faces that is enough, and the part below which one side alone may be better.
+const ENOUGH: [f64; 2] = [0.95, 0.6];
+
+/// Chooses bodies and view. A field that only surfaces of contact carry is hidden between the bodies in 3D: these are drawn apart, or, where the patch that touches is small, one side
+/// of the contact alone, from where it looks.
+pub fn choose(known: &Known, wanted: &Picture) -> Result<Shown, String> {
+    let skin = known.stage.skin;
+    let mut shown = named(known, wanted)?;
+    let drawn = |c: &&Contact| c.bodies.iter().flatten().any(|&b| shown.bodies[b]);
+    let contacts: Vec<Contact> = known.contacts.iter().filter(drawn).cloned().collect();
+    let known = &Known {
+        contacts: &contacts,
+        ..*known
+    };
+    let missing = known.values.iter().filter(|v| v.is_nan()).count();
+    if skin.dim != 3 || missing == 0 || missing == known.values.len() {
+        return Ok(shown);
+    }
+    let near = wanted.zoom == Zoom::Contact || wanted.zoom == Zoom::Auto && small(known);
+    let apart = (wanted.apart != Apart::Auto || !near)
+        .then(|| row(known.contacts, skin.ends.len(), known.stage.mirrors))
+        .flatten();
+    if apart.is_some() || wanted.apart != Apart::Auto {
+        spread(known, wanted, apart.as_ref(), &mut shown);
+    }
+    if shown.in_view.is_some_and(|part| part >= ENOUGH[1]) || wanted.apart != Apart::Auto {
+        return Ok(shown);
+    }
+    let mut alone = named(known, wanted)?;
+    one_side(known, wanted, &mut alone);
+    match shown.in_view > alone.in_view {
+        true => Ok(shown),
+        false => Ok(alone),
+    }
+}
+
+/// The bodies that are asked for, where they are.
+fn named(known: &Known, wanted: &Picture) -> Result<Shown, String> {
+    let count = known.stage.skin.ends.len();
     let mut shown = Shown {
         bodies: vec![wanted.bodies.is_empty(); count],
         view: wanted.view.unwrap_or(View::Iso),
+        offsets: vec![[0.0; 3]; count],
+        in_view: None,
         words: None,
         notes: Vec::new(),
     };
     for name in &wanted.bodies {
-        match names.iter().take(count).position(|n| n == name) {
+        match known.names.iter().take(count).position(|n| n == name) {
             Some(i) => shown.bodies[i] = true,
             None => {
-                let known: Vec<&str> = names.iter().take(count).map(String::as_str).collect();
-                let meant = nearest(name, &known).map(|meant| format!("did you mean `{meant}`? "));
-                let (meant, known) = (meant.unwrap_or_default(), known.join(", "));
+                let names = known.names.iter().take(count).map(String::as_str);
+                let names: Vec<&str> = names.collect();
+                let meant = nearest(name, &names).map(|meant| format!("did you mean `{meant}`? "));
+                let (meant, names) = (meant.unwrap_or_default(), names.join(", "));
                 return Err(format!(
-                    "there is no body `{name}`; {meant}there are {known}"
+                    "there is no body `{name}`; {meant}there are {names}"
                 ));
             }
         }
@@ -50,12 +107,75 @@ pub fn choose(
     if !wanted.bodies.is_empty() {
         shown.words = Some(format!("only {}", wanted.bodies.join(", ")));
     }
-    let partial = values.iter().any(|v| v.is_nan()) && values.iter().any(|v| !v.is_nan());
-    if skin.dim != 3 || !partial || wanted.view.is_some() {
-        return Ok(shown);
+    Ok(shown)
+}
+
+/// Whether what touches is so small beside the bodies that it is looked at from near.
+fn small(known: &Known) -> bool {
+    let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    for x in known.contacts.iter().flat_map(|c| c.bounds) {
+        for c in 0..3 {
+            bounds[0][c] = bounds[0][c].min(x[c]);
+            bounds[1][c] = bounds[1][c].max(x[c]);
+        }
     }
-    let sums: Vec<[f64; 3]> = (0..count).map(|body| outward(skin, values, body)).collect();
-    let size = |v: [f64; 3]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let span = (0..3).map(|c| bounds[1][c] - bounds[0][c]);
+    span.fold(0.0, f64::max) < 0.25 * known.stage.skin.size()
+}
+
+/// Draws bodies apart by the least distance, and from the side, that show what touches.
+fn spread(known: &Known, wanted: &Picture, row: Option<&Row>, shown: &mut Shown) {
+    let size = known.stage.skin.size();
+    let along = row.map_or([0.0, 0.0, 1.0], |row| row.along);
+    let distances: Vec<f64> = match wanted.apart {
+        Apart::By(distance) => vec![distance],
+        Apart::Auto => DISTANCES.map(|part| part * size).to_vec(),
+    };
+    let views = wanted.view.map_or_else(|| views(along), |view| vec![view]);
+    let stage = Stage {
+        bodies: &shown.bodies.clone(),
+        ..known.stage
+    };
+    let offsets = |distance: f64| -> Vec<Vec3> {
+        let places = (0..shown.bodies.len()).map(|b| row.map_or(0, |row| row.places[b]));
+        let far = places.map(|place| place as f64 * distance);
+        far.map(|far| along.map(|x| far * x)).collect()
+    };
+    let mut best = (-1.0, 0.0, shown.view);
+    'found: for distance in distances {
+        let offsets = offsets(distance);
+        for &view in &views {
+            let part = in_view(&stage, known.contacts, &Camera::new(view, 3), &offsets);
+            if part > best.0 + 0.02 {
+                best = (part, distance, view);
+            }
+            if part >= ENOUGH[0] {
+                break 'found;
+            }
+        }
+    }
+    let (part, distance, view) = best;
+    shown.offsets = offsets(distance);
+    (shown.in_view, shown.view) = (Some(part), view);
+    if distance > 0.0 && row.is_some() {
+        let words = format!("bodies drawn apart by {}", axis::number(distance, 3));
+        shown.notes.push(format!(
+            "{words} so that contact is seen, {:.0} % of its faces (--apart 0 leaves bodies where they are)",
+            100.0 * part
+        ));
+        shown.words = Some(match shown.words.take() {
+            Some(only) => format!("{only}, {words}"),
+            None => words,
+        });
+    }
+}
+
+/// Leaves one side of the contact, and looks at it.
+fn one_side(known: &Known, wanted: &Picture, shown: &mut Shown) {
+    let (skin, values) = (known.stage.skin, known.values);
+    let count = skin.ends.len();
+    let sums: Vec<Vec3> = (0..count).map(|body| outward(skin, values, body)).collect();
+    let size = |v: Vec3| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let mut most = 0;
     for body in 1..count {
         // Sides of a contact are about equally large: the first of them, whatever the meshes.
@@ -64,30 +184,43 @@ pub fn choose(
             most = body;
         }
     }
-    let normal = unit(sums[most]);
+    let mut normal = unit(sums[most]);
     if size(normal) == 0.0 {
-        return Ok(shown);
+        return;
+    }
+    if let Some(view) = wanted.view {
+        normal = Camera::new(view, 3).out;
     }
     if wanted.bodies.is_empty() && count > 1 {
         let along = |body: usize| (0..3).map(|c| sums[body][c] * normal[c]).sum::<f64>();
-        shown.bodies = (0..count).map(|b| b == most || along(b) > 0.0).collect();
+        let looks: Vec<bool> = (0..count).map(|b| along(b) > 0.0).collect();
+        if looks.contains(&true) {
+            shown.bodies = looks;
+        }
         let kept: Vec<&str> = (0..count)
             .filter(|&b| shown.bodies[b])
-            .map(|b| names[b].as_str())
+            .map(|b| known.names[b].as_str())
             .collect();
         shown.words = Some(format!("only {}", kept.join(", ")));
         shown.notes.push(format!(
-            "the field is hidden between the bodies: only {} is shown, from the side of the contact (--body and --view choose otherwise)",
+            "contact is hidden between the bodies: only {} is shown, from the side of the contact (--bodies and --view choose otherwise)",
             kept.join(", ")
         ));
     }
-    // Not straight on, so that the body has a shape.
-    let aside = match normal[2].abs() > 0.7 {
-        true => [0.45, -0.6, 0.0],
-        false => [0.0, 0.0, 0.45],
+    if wanted.view.is_none() {
+        // Not straight on, so that the body has a shape.
+        let aside = match normal[2].abs() > 0.7 {
+            true => [0.45, -0.6, 0.0],
+            false => [0.0, 0.0, 0.45],
+        };
+        shown.view = View::From([0, 1, 2].map(|c| normal[c] + 0.8 * aside[c]));
+    }
+    let stage = Stage {
+        bodies: &shown.bodies,
+        ..known.stage
     };
-    shown.view = View::From([0, 1, 2].map(|c| normal[c] + 0.8 * aside[c]));
-    Ok(shown)
+    let camera = Camera::new(shown.view, 3);
+    shown.in_view = Some(in_view(&stage, known.contacts, &camera, &shown.offsets));
 }
 
 /// The sum of the areas, as vectors, of the faces of a body that carry values, weighted by their magnitude; without weights if all

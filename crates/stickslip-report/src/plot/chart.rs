@@ -162,7 +162,7 @@ impl Chart<'_> {
             }
         }
         let mut x = left;
-        for (name, ink) in colour::STATUSES {
+        for &(name, ink) in &colour::STATUSES[..colour::TIED] {
             canvas.rectangle([x, y + 1.9 * em], [em, em], ink);
             canvas.text(
                 [x + 1.5 * em, y + 2.75 * em],

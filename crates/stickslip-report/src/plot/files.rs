@@ -3,10 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use stickslip::Error;
+use stickslip::io::vtu;
 
 use super::picture::When;
 use crate::draw::{self, Canvas};
-use crate::results::{Results, fault};
+use crate::field::{self, Interest};
+use crate::results::{Frame, Results, fault};
+use crate::sheet::latest_largest;
 
 /// Sizes of pictures that are made `[pixels]`.
 const SIZES: std::ops::RangeInclusive<u32> = 200..=8000;
@@ -28,11 +31,36 @@ pub fn canvas(file: &Path, size: [u32; 2]) -> Result<Box<dyn Canvas>, Error> {
         .ok_or_else(|| fault(file, "the name of a picture ends with .png or .svg"))
 }
 
-/// The frames that are wanted.
-pub fn chosen(results: &Results, when: When) -> Result<Vec<usize>, Error> {
+/// The time of interest of a field; that at which contact presses most if none is named.
+fn of_interest(results: &Results, name: Option<&str>) -> Result<usize, Error> {
+    let last = results.frames.len() - 1;
+    let arrays = vtu::read(&results.frames[last].file)?.arrays;
+    let field = name.and_then(|name| field::named(&field::with_invariants(&arrays), name));
+    let Some(field) = field else {
+        return results.of_peak();
+    };
+    match field.interest() {
+        Interest::Pressure => results.of_peak(),
+        Interest::End => Ok(last),
+        Interest::Largest => {
+            let largest = |frame: &Frame| {
+                let points = vtu::read(&frame.file)?;
+                let array = points.arrays.get(&field.array);
+                let values = array.map_or(0..0, |_| 0..points.points.len());
+                let sizes = values.filter_map(|p| Some(field.value(array?, p).abs()));
+                Ok(sizes.filter(|v| v.is_finite()).fold(0.0, f64::max))
+            };
+            let all: Result<Vec<f64>, Error> = results.frames.iter().map(largest).collect();
+            Ok(latest_largest(&all?))
+        }
+    }
+}
+
+/// The frames that are wanted of a field.
+pub fn chosen(results: &Results, when: When, field: Option<&str>) -> Result<Vec<usize>, Error> {
     let count = results.frames.len();
     Ok(match when {
-        When::Peak => vec![results.of_peak()?],
+        When::Peak => vec![of_interest(results, field)?],
         When::Last => vec![count - 1],
         When::All => (0..count).collect(),
         When::Number(n) if (1..=count).contains(&n) => vec![n - 1],

@@ -6,7 +6,7 @@ use super::raster::FINE;
 use super::words::{INK, SOFT, wrap};
 use crate::colour::{self, Scale};
 use crate::draw::{Anchor, Canvas, Pen};
-use crate::field::{self, Field};
+use crate::field::Field;
 
 /// What a colour bar is of.
 pub struct Shown<'a> {
@@ -18,6 +18,10 @@ pub struct Shown<'a> {
     pub colours: &'a Scale,
     /// Its values.
     pub values: &'a [f64],
+    /// What is said of them.
+    pub words: &'a [String],
+    /// How many contact points are open, stick and slip, where that is known.
+    pub statuses: Option<[usize; 3]>,
 }
 
 /// Draws the colour bar of a field, or the list of the statuses.
@@ -27,6 +31,8 @@ pub fn bar(shown: &Shown, at: [f64; 2], size: [f64; 2], em: f64, canvas: &mut dy
         unit,
         colours,
         values,
+        words: said,
+        statuses,
     } = *shown;
     let [x, mut y] = at;
     let label = field.label();
@@ -55,8 +61,12 @@ pub fn bar(shown: &Shown, at: [f64; 2], size: [f64; 2], em: f64, canvas: &mut dy
     let missing = values.iter().any(|v| v.is_nan());
     if colours.status {
         for (number, (name, colour)) in colour::STATUSES.iter().enumerate() {
-            let count = values.iter().filter(|v| v.round() == number as f64).count();
-            key(*colour, &format!("{name} ({count})"), &mut y);
+            let count = statuses.and_then(|counts| counts.get(number).copied());
+            let there = values.contains(&(number as f64));
+            if number < colour::TIED || there {
+                let count = count.map_or_else(String::new, |n| format!(" ({n})"));
+                key(*colour, &format!("{name}{count}"), &mut y);
+            }
         }
     }
     if missing {
@@ -65,21 +75,42 @@ pub fn bar(shown: &Shown, at: [f64; 2], size: [f64; 2], em: f64, canvas: &mut dy
     if colours.status {
         return;
     }
+    let lines: Vec<String> = (said.iter())
+        .flat_map(|words| wrap(words, 0.85 * em, size[0]))
+        .collect();
+    // Of zero there is nothing to tell apart.
+    if colours.range != [0.0; 2] {
+        let below = 1.15 * em * lines.len() as f64;
+        let height = (size[1] - (y - at[1]) - below - 0.5 * em).clamp(4.0 * em, 24.0 * em);
+        scale(colours, [x, y], height, em, canvas);
+        y += height;
+    }
+    y += 1.5 * em;
+    for line in lines {
+        canvas.text([x, y], &line, 0.85 * em, Anchor::Start, SOFT, false);
+        y += 1.15 * em;
+    }
+}
+
+/// Draws the colours from low to high, with numbers beside them.
+fn scale(colours: &Scale, [x, y]: [f64; 2], height: f64, em: f64, canvas: &mut dyn Canvas) {
     let [low, high] = colours.range;
-    let height = (size[1] - (y - at[1]) - em).clamp(4.0 * em, 24.0 * em);
     let bar = [1.5 * em, height].map(|n| (n * FINE as f64) as usize);
     let pixels: Vec<u8> = (0..bar[1])
         .flat_map(|row| {
             let t = 1.0 - (row as f64 + 0.5) / bar[1] as f64;
-            let [r, g, b] = colour::along(colours.anchors(), t);
+            let [r, g, b] = colours.colour(low + t * (high - low));
             std::iter::repeat_n([r, g, b, 255], bar[0]).flatten()
         })
         .collect();
     canvas.picture([x, y], bar, FINE, &pixels);
-    let ticks = if high > low {
-        axis::ticks(low, high, 7)
-    } else {
-        vec![low]
+    // A few bands have their ends named, otherwise round numbers are.
+    let ticks = match colours.bands {
+        _ if high <= low => vec![low],
+        Some(n @ 1..=12) => (0..=n)
+            .map(|k| low + f64::from(k) / f64::from(n) * (high - low))
+            .collect(),
+        _ => axis::ticks(low, high, 7),
     };
     for tick in ticks {
         let share = if high > low {
@@ -93,11 +124,6 @@ pub fn bar(shown: &Shown, at: [f64; 2], size: [f64; 2], em: f64, canvas: &mut dy
         let text = axis::number(tick, 3);
         let place = [x + 2.2 * em, place + 0.34 * em];
         canvas.text(place, &text, 0.92 * em, Anchor::Start, INK, false);
-    }
-    if let Some([least, most]) = field::range(values.iter().copied()) {
-        let line = format!("{} … {}", axis::number(least, 3), axis::number(most, 3));
-        let place = [x, y + height + 1.5 * em];
-        canvas.text(place, &line, 0.85 * em, Anchor::Start, SOFT, false);
     }
 }
 

@@ -14,8 +14,8 @@ pub struct Drawn<'a> {
     pub see: &'a dyn Fn([f64; 3]) -> [f64; 3],
     /// Whether something is drawn in front of a place on the raster.
     pub hides: &'a dyn Fn([f64; 3]) -> bool,
-    /// Factor of displacements.
-    pub scale: f64,
+    /// Where a point of contact is drawn, on either side.
+    pub places: &'a dyn Fn(&Sheet, usize) -> Vec<[f64; 3]>,
     /// Where it is on the canvas, and how large.
     pub at: [f64; 2],
     pub area: [f64; 2],
@@ -31,8 +31,14 @@ impl Drawn<'_> {
         (within && !(self.hides)(seen)).then(|| [0, 1].map(|c| self.at[c] + p[c]))
     }
 
+    /// Where a point of contact is on the canvas, on a side that is seen.
+    fn contact(&self, sheet: &Sheet, point: usize) -> Option<[f64; 2]> {
+        let places = (self.places)(sheet, point);
+        places.into_iter().find_map(|x| self.place(x))
+    }
+
     /// The direction of a vector of space on the canvas, as long as it is seen there with length one a unit.
-    fn towards(&self, v: [f64; 3]) -> [f64; 2] {
+    pub fn towards(&self, v: [f64; 3]) -> [f64; 2] {
         let (a, b) = ((self.see)([0.0; 3]), (self.see)(v));
         let size = v.iter().map(|x| x * x).sum::<f64>().sqrt();
         let [dx, dy] = [b[0] - a[0], b[1] - a[1]];
@@ -87,7 +93,7 @@ pub fn arrows(sheets: &[Sheet], drawn: &Drawn, dim: usize, canvas: &mut dyn Canv
     for sheet in sheets {
         for i in points(sheet) {
             let t = sheet.vector(name, i);
-            let Some(p) = drawn.place(sheet.place(i, drawn.scale)) else {
+            let Some(p) = drawn.contact(sheet, i) else {
                 continue;
             };
             let near = |q: &[f64; 2]| (q[0] - p[0]).hypot(q[1] - p[1]) < apart;
@@ -114,17 +120,17 @@ pub fn arrows(sheets: &[Sheet], drawn: &Drawn, dim: usize, canvas: &mut dyn Canv
     }
 }
 
-/// Marks the place with the largest pressure that is drawn, where nothing hides it.
+/// Marks the point with the largest pressure, where nothing hides it.
 pub fn peak(
-    x: [f64; 3],
+    sheet: &Sheet,
+    point: usize,
     most: f64,
-    sheets: &[Sheet],
     drawn: &Drawn,
     units: &Units,
     canvas: &mut dyn Canvas,
 ) {
-    let traction = nearest(sheets, x, drawn.scale);
-    let Some([x, y]) = drawn.place(x).filter(|_| most > 0.0) else {
+    let traction = sheet.vector("CTRACTION", point);
+    let Some([x, y]) = drawn.contact(sheet, point) else {
         return;
     };
     let em = drawn.em;
@@ -173,17 +179,4 @@ pub fn peak(
         Pen::new(INK, 0.1 * em),
     );
     canvas.text([start, up + 0.15 * em], text, em, Anchor::Start, INK, false);
-}
-
-/// The traction at the point of contact that is nearest to a place.
-fn nearest(sheets: &[Sheet], x: [f64; 3], scale: f64) -> [f64; 3] {
-    let sheets = sheets.iter().filter(|s| !s.tied());
-    let away = |(sheet, i): &(&Sheet, usize)| {
-        let p = sheet.place(*i, scale);
-        (0..3).map(|c| (p[c] - x[c]).powi(2)).sum::<f64>()
-    };
-    let points = |s: &Sheet| 0..s.grid.points.points.len();
-    let all = sheets.flat_map(|s| points(s).map(move |i| (s, i)));
-    let best = all.min_by(|a, b| away(a).total_cmp(&away(b)));
-    best.map_or([0.0; 3], |(sheet, i)| sheet.vector("CTRACTION", i))
 }

@@ -1,18 +1,23 @@
 //! Pictures of results and plots of histories, as PNG or SVG, made without a browser.
 
 mod along;
+mod apart;
 mod axis;
 mod bodies;
 mod camera;
 mod chart;
+mod facts;
 mod files;
 mod history;
 mod legend;
 mod marks;
+mod paint;
 mod picture;
 mod raster;
 mod regimes;
 mod scene;
+mod statistics;
+mod symbols;
 mod words;
 mod zoom;
 
@@ -29,7 +34,9 @@ use files::{canvas, chosen, numbered};
 
 pub use along::{Along, along};
 pub use camera::View;
-pub use picture::{Picture, Plane, Units, When, Zoom};
+pub use facts::Facts;
+pub use picture::{Apart, Colours, Picture, Plane, Units, When, Zoom};
+pub use symbols::Acts;
 pub(crate) use zoom::scale;
 
 /// Draws the bodies with a field in colour; returns the files written, and what is to be said about them.
@@ -50,7 +57,7 @@ pub fn picture(
             "no fields were written: there is nothing to draw",
         ));
     }
-    let frames = chosen(&results, wanted.when)?;
+    let frames = chosen(&results, wanted.when, wanted.field.as_deref())?;
     // Before anything is read: a wrong ending or size is said at once.
     canvas(&file, wanted.size)?;
     let scene = scene::Scene::new(&results, wanted, &frames)?;
@@ -66,6 +73,21 @@ pub fn picture(
         written.push(file);
     }
     Ok((written, scene.notes))
+}
+
+/// What the pictures of the bodies say, a time each: they are drawn from these.
+///
+/// # Errors
+/// As [`picture`], but that nothing is written.
+pub fn facts(directory: &Path, wanted: &Picture) -> Result<Vec<Facts>, Error> {
+    let results = Results::open(directory)?;
+    let frames = chosen(&results, wanted.when, wanted.field.as_deref())?;
+    let scene = scene::Scene::new(&results, wanted, &frames)?;
+    let draw = |frame: &usize| {
+        let mut canvas = Svg::new(wanted.size);
+        scene.draw(*frame, wanted.size, &mut canvas)
+    };
+    frames.iter().map(draw).collect()
 }
 
 /// Plots columns of the history against another; returns the file written.

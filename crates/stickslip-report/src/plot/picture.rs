@@ -8,7 +8,8 @@ pub use crate::units::Units;
 /// Which of the times are drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum When {
-    /// That at which contact presses most, or the last where nothing presses.
+    /// That of interest: of pressure and status that at which contact presses most, or the last where nothing presses; of what only grows, as wear, the last; of other fields that at
+    /// which they are largest.
     Peak,
     /// The last.
     Last,
@@ -79,6 +80,40 @@ impl FromStr for Plane {
     }
 }
 
+/// How values become colours.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Colours {
+    /// What the ends of the colours stand for; chosen by the values if not given.
+    pub range: Option<[f64; 2]>,
+    /// How many colours there are; as many as there are values if not given.
+    pub bands: Option<u32>,
+    /// What is below is drawn as nothing.
+    pub threshold: Option<f64>,
+}
+
+/// By how much bodies that touch are drawn apart, so that their surfaces are seen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Apart {
+    /// As far as the surfaces of contact need, where a field of them is drawn in space.
+    Auto,
+    /// So far `[length]`.
+    By(f64),
+}
+
+impl FromStr for Apart {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "auto" => Ok(Apart::Auto),
+            _ => match text.parse::<f64>() {
+                Ok(x) if x.is_finite() && x >= 0.0 => Ok(Apart::By(x)),
+                _ => Err("`auto`, or a length from 0".into()),
+            },
+        }
+    }
+}
+
 /// How a picture of the bodies is made.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
@@ -102,8 +137,14 @@ pub struct Picture {
     pub arrows: Option<bool>,
     /// Only cells in front of this plane, whose middle is below it, are drawn.
     pub cut: Option<Plane>,
-    /// A plane of symmetry, beyond which the other half is drawn too.
-    pub mirror: Option<Plane>,
+    /// Planes of symmetry, beyond which the other half is drawn too.
+    pub mirrors: Vec<Plane>,
+    /// How values become colours.
+    pub colours: Colours,
+    /// By how much bodies that touch are drawn apart.
+    pub apart: Apart,
+    /// Whether supports and loads are drawn as symbols, and the outline of the bodies before any displacement.
+    pub loads: bool,
     /// Units for the legend; those that the problem gives if not given.
     pub units: Option<Units>,
 }
@@ -121,7 +162,10 @@ impl Default for Picture {
             at: None,
             arrows: None,
             cut: None,
-            mirror: None,
+            mirrors: Vec::new(),
+            colours: Colours::default(),
+            apart: Apart::Auto,
+            loads: false,
             units: None,
         }
     }

@@ -148,7 +148,7 @@ fn c_of(t: [Corner; 3], i: usize) -> [f64; 3] {
 fn nearest(t: &[Corner; 3], weights: [f64; 3]) -> f64 {
     let mut sums = [0.0; colour::STATUSES.len()];
     for (corner, w) in t.iter().zip(weights) {
-        sums[corner.value.round().clamp(0.0, 2.0) as usize] += w;
+        sums[corner.value.round().clamp(0.0, colour::TIED as f64) as usize] += w;
     }
     let mut best = 0;
     for i in 1..sums.len() {
@@ -175,6 +175,8 @@ mod tests {
         signed: false,
         status: false,
         carried: false,
+        bands: None,
+        threshold: None,
     };
 
     fn pixel(r: &Raster, x: usize, y: usize) -> [u8; 4] {

@@ -1,19 +1,25 @@
 //! The bodies with a field in colour, as one picture.
 
+use std::collections::BTreeMap;
+
 use stickslip::Error;
 use stickslip::io::vtu::{self, Grid, PointFields};
 
-use super::bodies::{self, Shown};
-use super::camera::{Camera, Frame, cross, unit};
+use super::apart::{self, Contact, Stage};
+use super::bodies::{self, Known, Shown};
+use super::camera::{Camera, Frame};
+use super::facts::Facts;
 use super::marks;
+use super::paint::{self, Look, displaced, displacement, values};
 use super::picture::{Picture, Zoom};
-use super::raster::{Corner, FINE, Raster};
+use super::raster::{FINE, Raster};
+use super::symbols::{self, Acting, Acts, Symbol};
 use super::words::{INK, SOFT, shorten};
-use super::{axis, legend, zoom};
+use super::{axis, legend, statistics, zoom};
 use crate::colour::Scale;
 use crate::draw::{Anchor, Canvas, Pen};
 use crate::field::{self, Field};
-use crate::obstacle::{self, Outline};
+use crate::obstacle;
 use crate::results::{Results, fault};
 use crate::sheet::Sheet;
 use crate::skin::Skin;
@@ -22,19 +28,20 @@ use crate::units::{Units, behind};
 /// What is the same for all times: geometry, camera, colours.
 pub struct Scene<'a> {
     results: &'a Results,
-    skin: Skin,
-    shown: Shown,
-    field: Option<Field>,
-    colours: Scale,
-    scale: f64,
-    camera: Camera,
-    obstacles: Vec<Outline>,
+    look: Look,
+    /// For the caption.
+    words: Option<String>,
+    /// What touches.
+    contacts: Vec<Contact>,
+    in_view: Option<f64>,
+    /// Whether colours were given, and whether they leave values out.
+    given: bool,
     /// The box of the picture's plane that holds the bodies at all times.
     bounds: zoom::Box2,
     /// The part of it that is seen.
     seen: zoom::Box2,
-    /// Axis and place of a plane of symmetry.
-    mirror: Option<(usize, f64)>,
+    /// Supports and loads, where they are drawn.
+    acting: Option<Acting>,
     /// Whether tractions are drawn as arrows.
     arrows: bool,
     units: Units,
@@ -42,15 +49,8 @@ pub struct Scene<'a> {
     pub notes: Vec<String>,
 }
 
-fn displacement(points: &PointFields, point: usize) -> [f64; 3] {
-    match points.arrays.get("U").filter(|u| u.components == 3) {
-        Some(u) => [0, 1, 2].map(|c| u.values[3 * point + c]),
-        None => [0.0; 3],
-    }
-}
-
 fn choose(results: &Results, grid: &Grid, name: Option<&str>) -> Result<Option<Field>, Error> {
-    let list = field::fields(&grid.points.arrays);
+    let list = field::with_invariants(&grid.points.arrays);
     let Some(name) = name else {
         // Rigid bodies have no stress.
         let says = |name: &&'static str| {
@@ -67,12 +67,8 @@ fn choose(results: &Results, grid: &Grid, name: Option<&str>) -> Result<Option<F
         let chosen = name.and_then(named).or_else(|| named("U"));
         return Ok(chosen.or_else(|| list.first().cloned()));
     };
-    let found = list
-        .iter()
-        .find(|f| f.name == name)
-        .or_else(|| list.iter().find(|f| f.name.eq_ignore_ascii_case(name)));
-    match found {
-        Some(field) => Ok(Some(field.clone())),
+    match field::named(&list, name) {
+        Some(field) => Ok(Some(field)),
         None => {
             let names: Vec<&str> = list.iter().map(|f| f.name.as_str()).collect();
             let meant = match stickslip::problem::nearest(name, &names) {
@@ -90,146 +86,292 @@ fn choose(results: &Results, grid: &Grid, name: Option<&str>) -> Result<Option<F
     }
 }
 
-/// What is the same for all the times that are drawn.
-struct Extremes {
-    /// Least and largest value of the field; zeros where there is none.
-    range: [f64; 2],
-    /// Largest displacement.
-    largest: f64,
+/// The largest displacement at these times, of files that all have the points of the first.
+fn largest(results: &Results, frames: &[usize], grid: &Grid, skin: &Skin) -> Result<f64, Error> {
+    let mut largest = 0.0f64;
+    for &frame in frames {
+        let file = &results.frames[frame].file;
+        let points = vtu::read(file)?;
+        if points.points.len() != grid.points.points.len() {
+            return Err(fault(
+                file,
+                "it has another number of points than the first file that is drawn",
+            ));
+        }
+        for &p in &skin.points {
+            let u = displacement(&points, p);
+            largest = largest.max(u.iter().map(|v| v * v).sum::<f64>().sqrt());
+        }
+    }
+    Ok(largest)
 }
 
-impl Extremes {
-    fn of(
-        results: &Results,
-        frames: &[usize],
-        grid: &Grid,
-        skin: &Skin,
-        field: Option<&Field>,
-    ) -> Result<Self, Error> {
-        let (mut range, mut largest) = (None::<[f64; 2]>, 0.0f64);
-        for &frame in frames {
-            let file = &results.frames[frame].file;
-            let points = vtu::read(file)?;
-            if points.points.len() != grid.points.points.len() {
-                return Err(fault(
-                    file,
-                    "it has another number of points than the first file that is drawn",
-                ));
-            }
-            let values = values(&points, skin, field);
-            if let Some([low, high]) = field::range(values.into_iter()) {
-                let [l, h] = range.unwrap_or([low, high]);
-                range = Some([l.min(low), h.max(high)]);
-            }
-            for &p in &skin.points {
-                let u = displacement(&points, p);
-                largest = largest.max(u.iter().map(|v| v * v).sum::<f64>().sqrt());
-            }
-        }
-        let range = range.unwrap_or([0.0; 2]);
-        Ok(Extremes { range, largest })
+/// What can be seen, and the whole that it was cut from.
+fn skins(
+    results: &Results,
+    wanted: &Picture,
+    grid: &mut Grid,
+    frame: usize,
+) -> Result<[Skin; 2], Error> {
+    let whole = Skin::of(grid);
+    if let Some(plane) = wanted.cut {
+        let [low, high] = whole.bounds();
+        let middle = (low[plane.axis] + high[plane.axis]) / 2.0;
+        zoom::keep_below(grid, plane.axis, plane.at.unwrap_or(middle));
     }
+    let skin = Skin::of(grid);
+    if skin.triangles.is_empty() {
+        return Err(fault(
+            &results.frames[frame].file,
+            match wanted.cut {
+                Some(_) => "the cut leaves no cell: its place is below the bodies",
+                None => "it has no cells that could be drawn",
+            },
+        ));
+    }
+    Ok([skin, whole])
 }
 
 impl<'a> Scene<'a> {
     /// Reads what is to be drawn at these times.
     pub fn new(results: &'a Results, wanted: &Picture, frames: &[usize]) -> Result<Self, Error> {
         let mut grid = results.grid(frames[0])?;
-        let whole = Skin::of(&grid);
-        if let Some(plane) = wanted.cut {
-            let [low, high] = whole.bounds();
-            let middle = (low[plane.axis] + high[plane.axis]) / 2.0;
-            zoom::keep_below(&mut grid, plane.axis, plane.at.unwrap_or(middle));
-        }
-        let skin = Skin::of(&grid);
-        if skin.triangles.is_empty() {
-            return Err(fault(
-                &results.frames[frames[0]].file,
-                match wanted.cut {
-                    Some(_) => "the cut leaves no cell: its place is below the bodies",
-                    None => "it has no cells that could be drawn",
-                },
-            ));
-        }
+        let [skin, whole] = skins(results, wanted, &mut grid, frames[0])?;
         let field = choose(results, &grid, wanted.field.as_deref())?;
-        let mut notes = Vec::new();
-        let Extremes { range, largest } =
-            Extremes::of(results, frames, &grid, &skin, field.as_ref())?;
         let sheets: Vec<Vec<Sheet>> = (frames.iter())
             .map(|&frame| results.sheets(frame))
             .collect::<Result<_, Error>>()?;
         let contact = field.as_ref().is_some_and(Field::of_contact);
+        let largest = largest(results, frames, &grid, &skin)?;
         let scale = match (wanted.scale, contact) {
             (Some(scale), _) => scale,
             // Where contact is looked at nothing is moved to where it is not.
             (None, true) => 1.0,
             (None, false) => zoom::scale(skin.size(), largest, sheets.iter().flatten()),
         };
-        let (range, signed) = field::span_of(field.as_ref(), range);
-        let colours = Scale {
-            range,
-            signed,
-            status: field.as_ref().is_some_and(|f| f.name == field::STATUS),
-            carried: field.as_ref().is_some_and(Field::carried),
-        };
-        let first = values(&grid.points, &skin, field.as_ref());
-        let names = results.bodies(skin.ends.len());
-        let shown = bodies::choose(&skin, &names, wanted, &first)
-            .map_err(|message| fault(&results.directory, message))?;
-        notes.extend(shown.notes.iter().cloned());
-        let camera = Camera::new(shown.view, skin.dim);
-        let mirror = wanted.mirror.map(|plane| {
-            let [low, high] = whole.bounds().map(|x| x[plane.axis]);
-            let near = if low.abs() <= high.abs() { low } else { high };
-            (plane.axis, plane.at.unwrap_or(near))
+        let mirrors: Vec<zoom::Mirror> = (wanted.mirrors.iter())
+            .map(|plane| {
+                let [low, high] = whole.bounds().map(|x| x[plane.axis]);
+                let near = if low.abs() <= high.abs() { low } else { high };
+                (plane.axis, plane.at.unwrap_or(near))
+            })
+            .collect();
+        let moved = displaced(&skin, &grid.points, scale);
+        let contacts = field.as_ref().map_or_else(Vec::new, |field| {
+            apart::contacts(&skin, &grid.points, field, &sheets[0], &moved, scale)
         });
-        let box_of = |points: &PointFields, bounds: &mut zoom::Box2| {
-            for (local, &p) in skin.points.iter().enumerate() {
-                if !shown.bodies[skin.owner[local] as usize] {
-                    continue;
-                }
-                let u = displacement(points, p);
-                let x = [0, 1, 2].map(|c| skin.positions[local][c] + scale * u[c]);
-                for x in zoom::copies(x, mirror) {
-                    zoom::include(bounds, camera.see(x));
-                }
-            }
+        let known = Known {
+            names: &results.bodies(skin.ends.len()),
+            values: &values(&grid.points, &skin, field.as_ref()),
+            stage: Stage {
+                skin: &skin,
+                bodies: &vec![true; skin.ends.len()],
+                moved: &moved,
+                mirrors: &mirrors,
+            },
+            contacts: &contacts,
         };
-        let mut bounds = zoom::NOTHING;
+        let chosen = bodies::choose(&known, wanted);
+        let shown = chosen.map_err(|message| fault(&results.directory, message))?;
+        let Shown { bodies, view, .. } = shown;
+        let (acting, mut notes) = (wanted.loads)
+            .then(|| Acting::read(results, grid.points.points.len()))
+            .map_or((None, Vec::new()), |read| match read {
+                Ok(acting) => (Some(acting), Vec::new()),
+                Err(why) => (None, vec![why]),
+            });
+        notes.extend(shown.notes);
+        let look = Look {
+            outline: match wanted.loads {
+                true => symbols::outline(&skin),
+                false => Vec::new(),
+            },
+            obstacles: obstacle::outlines(&results.problem, &skin),
+            camera: Camera::new(view, skin.dim),
+            shown: bodies,
+            offsets: shown.offsets,
+            skin,
+            field,
+            colours: Scale::default(),
+            scale,
+            mirrors,
+        };
+        let mut scene = Scene {
+            results,
+            look,
+            words: shown.words,
+            contacts,
+            in_view: shown.in_view,
+            given: wanted.colours.range.is_some(),
+            bounds: zoom::NOTHING,
+            seen: zoom::NOTHING,
+            acting,
+            arrows: wanted.arrows.unwrap_or(contact && whole.dim == 2),
+            units: wanted.units.clone().unwrap_or_else(|| Units::of(results)),
+            notes,
+        };
+        scene.survey(wanted, frames, &sheets)?;
+        Ok(scene)
+    }
+
+    /// Chooses colours, and which part is seen, from all times.
+    fn survey(
+        &mut self,
+        wanted: &Picture,
+        frames: &[usize],
+        sheets: &[Vec<Sheet>],
+    ) -> Result<(), Error> {
+        let look = &self.look;
+        let field = look.field.as_ref();
+        let (mut all, mut bounds) = (Vec::new(), zoom::NOTHING);
         for &frame in frames {
-            box_of(&vtu::read(&results.frames[frame].file)?, &mut bounds);
+            let points = vtu::read(&self.results.frames[frame].file)?;
+            let values = values(&points, &look.skin, field);
+            let weights = statistics::weights(&look.skin, &values, &look.shown);
+            let drawn = (0..values.len()).filter(|&i| look.draws(i as u32));
+            all.extend(drawn.map(|i| [values[i], weights[i]]));
+            let [low, high] = look.bounds(&points);
+            for c in 0..2 {
+                bounds[0][c] = f64::min(bounds[0][c], low[c]);
+                bounds[1][c] = f64::max(bounds[1][c], high[c]);
+            }
         }
-        let patch = zoom::patch(sheets.iter().flatten(), scale, mirror, &camera);
+        if self.acting.is_some() {
+            // Room for symbols.
+            let room = 0.08
+                * (0..2)
+                    .map(|c| bounds[1][c] - bounds[0][c])
+                    .fold(0.0, f64::max);
+            bounds = [bounds[0].map(|x| x - room), bounds[1].map(|x| x + room)];
+        }
+        let carried = field.is_some_and(Field::carried);
+        if carried {
+            // Of what a surface carries the part that carries counts.
+            all.retain(|[value, _]| *value != 0.0);
+        }
+        let robust = statistics::robust(all, carried).unwrap_or([0.0; 2]);
+        let (range, signed) = field::span_of(field, robust);
+        let colours = Scale {
+            range: wanted.colours.range.unwrap_or(range),
+            // Zero is in the middle of what is given only where both ends are as far from it.
+            signed: wanted
+                .colours
+                .range
+                .map_or(signed, |[low, high]| low == -high),
+            status: field.is_some_and(|f| f.name == field::STATUS),
+            carried,
+            bands: wanted.colours.bands,
+            threshold: wanted.colours.threshold,
+        };
+        let contact = field.is_some_and(Field::of_contact);
+        let patch = (sheets.iter().flatten()).flat_map(|sheet| {
+            let places = sheet
+                .pressing()
+                .into_iter()
+                .flat_map(|i| self.places(sheet, i));
+            places.collect::<Vec<_>>()
+        });
+        let patch = zoom::around(patch, &look.mirrors, &look.camera);
         let nearer = match wanted.zoom {
             Zoom::Auto if !contact => Zoom::Whole,
             nearer => nearer,
         };
-        let middle = wanted.at.map(|x| camera.see(x));
-        let seen =
-            zoom::seen(bounds, patch, nearer, middle).map_err(|m| fault(&results.directory, m))?;
-        let given = wanted.units.clone();
-        let arrows = wanted.arrows.unwrap_or(contact && skin.dim == 2);
-        let obstacles = obstacle::outlines(&results.problem, &skin);
-        Ok(Scene {
-            obstacles,
-            results,
-            skin,
-            shown,
-            field,
-            colours,
-            scale,
-            camera,
-            bounds,
-            seen,
-            mirror,
-            arrows,
-            units: given.unwrap_or_else(|| Units::of(results)),
-            notes,
+        let middle = wanted.at.map(|x| look.camera.see(x));
+        let seen = zoom::seen(bounds, patch, nearer, middle);
+        self.seen = seen.map_err(|m| fault(&self.results.directory, m))?;
+        (self.bounds, self.look.colours) = (bounds, colours);
+        Ok(())
+    }
+
+    /// Where a point of contact is drawn: on its own body and on the one opposite, those of them that are drawn and face the eye.
+    fn places(&self, sheet: &Sheet, point: usize) -> Vec<[f64; 3]> {
+        let x = sheet.place(point, self.look.scale);
+        let contact = self.contacts.iter().find(|c| c.name == sheet.name);
+        let Some(contact) = contact else {
+            return vec![x];
+        };
+        let normal = self.look.camera.see(sheet.vector("CNORMAL", point));
+        // The normal points out of the body opposite.
+        let sides = contact.bodies.into_iter().zip([-1.0, 1.0]);
+        let faces = |side: f64| self.look.skin.dim == 2 || side * normal[2] > 0.0;
+        sides
+            .filter_map(|(body, side)| body.filter(|&b| self.look.shown[b] && faces(side)))
+            .map(|body| [0, 1, 2].map(|c| x[c] + self.look.offsets[body][c]))
+            .collect()
+    }
+
+    /// The point that presses most where a side of it is drawn, and its pressure.
+    fn peak<'s>(&self, sheets: &'s [Sheet], time: f64) -> Option<(&'s Sheet, usize, f64)> {
+        let field = self.look.field.as_ref();
+        if field.is_none_or(|f| f.array != "CPRESS") {
+            return None;
+        }
+        let peaks = sheets.iter().filter_map(|sheet| {
+            let (point, most) = sheet.peak()?;
+            let most = self.results.peak_at(&sheet.name, time).unwrap_or(most);
+            (!self.places(sheet, point).is_empty()).then_some((sheet, point, most))
+        });
+        // Of values that are alike the first.
+        peaks.reduce(|best, next| {
+            if next.2 > best.2 * (1.0 + 1e-9) {
+                next
+            } else {
+                best
+            }
         })
     }
 
-    /// Draws one of the times.
-    pub fn draw(&self, frame: usize, size: [u32; 2], canvas: &mut dyn Canvas) -> Result<(), Error> {
+    /// What is said of one of the times.
+    fn facts(&self, frame: usize, points: &PointFields, sheets: &[Sheet]) -> Facts {
+        let Look { skin, colours, .. } = &self.look;
+        let values = values(points, skin, self.look.field.as_ref());
+        let drawn = (0..values.len()).filter(|&i| self.look.draws(i as u32));
+        let extremes = field::range(drawn.clone().map(|i| values[i]));
+        let mut facts = Facts {
+            time: self.results.frames[frame].time,
+            field: self.look.field.as_ref().map(|f| f.name.clone()),
+            range: colours.range,
+            extremes,
+            in_view: self.in_view,
+            acts: self
+                .acting
+                .as_ref()
+                .map(|a| Acts::of(&a.at(self.results.frames[frame].time))),
+            statuses: self.results.statuses_at(self.results.frames[frame].time),
+            strips: paint::strip_pieces(&self.look, &values).len(),
+            ..Facts::default()
+        };
+        let names = self.results.bodies(skin.ends.len()).into_iter();
+        let shown = (names.zip(&self.look.offsets)).zip(&self.look.shown);
+        let shown = shown.filter(|(_, drawn)| **drawn);
+        (facts.bodies, facts.offsets) = shown.map(|((name, x), _)| (name, *x)).unzip();
+        let most = extremes.map_or(f64::NAN, |e| e[1]);
+        if let Some(i) = drawn.clone().find(|&i| values[i] == most) {
+            let u = displacement(points, skin.points[i]);
+            facts.place = [0, 1, 2].map(|c| skin.positions[i][c] + u[c]);
+        }
+        // What points of contact have, not means over those of a node.
+        if let (Some((sheet, point, most)), Some(extremes)) =
+            (self.peak(sheets, facts.time), &mut facts.extremes)
+        {
+            (facts.peak, extremes[1], facts.place) = (Some(most), most, sheet.place(point, 1.0));
+        }
+        // Rounding is no place.
+        let small = 1e-6 * skin.size();
+        facts.place = facts.place.map(|x| if x.abs() < small { 0.0 } else { x });
+        if !colours.status {
+            facts.words = facts.said(self.given, skin.dim);
+        }
+        facts
+    }
+
+    /// Draws one of the times, and returns what the picture says.
+    pub fn draw(
+        &self,
+        frame: usize,
+        size: [u32; 2],
+        canvas: &mut dyn Canvas,
+    ) -> Result<Facts, Error> {
         let points = vtu::read(&self.results.frames[frame].file)?;
         let [width, height] = size.map(f64::from);
         // All texts grow with the picture.
@@ -240,62 +382,93 @@ impl<'a> Scene<'a> {
         let area = [width - bar - 2.0 * margin, height - top - 2.6 * em];
         let area = area.map(|n| n.max(16.0));
         let sheets = self.results.sheets(frame)?;
+        let facts = self.facts(frame, &points, &sheets);
+        let (look, skin) = (&self.look, &self.look.skin);
         let (place, raster) = self.bodies(frame, &points, [at, area], self.seen, em, canvas);
-        let behind_by = 0.02 * self.skin.size();
+        let behind_by = 0.02 * skin.size();
         let drawn = marks::Drawn {
-            see: &|x| place.place(self.camera.see(x)),
+            see: &|x| place.place(look.camera.see(x)),
             // In a plane nothing is behind anything.
-            hides: &|seen| self.skin.dim == 3 && raster.hides(seen, behind_by),
-            scale: self.scale,
+            hides: &|seen| skin.dim == 3 && raster.hides(seen, behind_by),
+            places: &|sheet, point| self.places(sheet, point),
             at,
             area,
             em,
         };
         if self.arrows {
-            marks::arrows(&sheets, &drawn, self.skin.dim, canvas);
+            marks::arrows(&sheets, &drawn, skin.dim, canvas);
         }
-        if self.field.as_ref().is_some_and(|f| f.array == "CPRESS") {
-            let (x, most) = self.most(&points);
-            marks::peak(x, most, &sheets, &drawn, &self.units, canvas);
+        if let Some((sheet, point, most)) = self.peak(&sheets, facts.time) {
+            marks::peak(sheet, point, most, &drawn, &self.units, canvas);
+        }
+        if let Some(acting) = &self.acting {
+            self.symbols(&acting.at(facts.time), &points, &drawn, canvas);
         }
         self.headline(frame, em, [margin, width - 2.0 * margin], canvas);
-        if let Some(field) = &self.field {
+        let inset = self.seen != self.bounds;
+        if let Some(field) = &look.field {
             let x = width - bar - 0.4 * em;
-            let values = values(&points, &self.skin, Some(field));
+            let values = values(&points, skin, Some(field));
             let shown = legend::Shown {
                 field,
                 unit: &behind(self.units.of_field(field)),
-                colours: &self.colours,
+                colours: &look.colours,
                 values: &values,
+                words: &facts.words,
+                statuses: facts.statuses,
             };
-            legend::bar(
-                &shown,
-                [x, top + 0.5 * em],
-                [
-                    bar,
-                    if self.seen == self.bounds {
-                        area[1]
-                    } else {
-                        area[1] - 11.0 * em
-                    },
-                ],
-                em,
-                canvas,
-            );
+            let high = if inset { area[1] - 11.0 * em } else { area[1] };
+            legend::bar(&shown, [x, top + 0.5 * em], [bar, high], em, canvas);
         }
-        if self.seen != self.bounds {
+        if inset {
             let size = [bar - 1.4 * em, 9.0 * em];
             let corner = [width - bar - 0.4 * em, height - 2.6 * em - size[1]];
             self.inset(frame, &points, [corner, size], em, canvas);
         }
-        legend::triad(
-            &self.camera,
-            self.skin.dim,
-            [margin + 2.2 * em, height - 2.6 * em],
-            em,
-            canvas,
-        );
-        Ok(())
+        let corner = [margin + 2.2 * em, height - 2.6 * em];
+        legend::triad(&look.camera, skin.dim, corner, em, canvas);
+        Ok(facts)
+    }
+
+    /// Draws supports and loads where their points are.
+    fn symbols(
+        &self,
+        all: &[Symbol],
+        points: &PointFields,
+        drawn: &marks::Drawn,
+        canvas: &mut dyn Canvas,
+    ) {
+        let (look, skin) = (&self.look, &self.look.skin);
+        let moved = look.moved(points);
+        let known = skin.points.iter().copied().zip(0u32..);
+        let local: BTreeMap<usize, u32> = known.collect();
+        let placed = all.iter().filter_map(|symbol| {
+            let place = match symbol.point {
+                None => symbol.place,
+                Some(point) => {
+                    let i = *local.get(&point).filter(|i| look.draws(**i))?;
+                    moved[i as usize]
+                }
+            };
+            Some((*symbol, place))
+        });
+        let placed: Vec<(Symbol, [f64; 3])> = placed.collect();
+        let boxes: Vec<[[f64; 3]; 2]> = (0..skin.ends.len()).map(|b| skin.bounds_of(b)).collect();
+        // Supports stand outside of their body.
+        let sign = |symbol: &Symbol| {
+            let axis = (0..3).find(|&c| symbol.vector[c] != 0.0).unwrap_or(0);
+            let body = symbol.point.and_then(|p| local.get(&p));
+            let middle = body.map(|&i| {
+                let [low, high] = boxes[skin.owner[i as usize] as usize];
+                (low[axis] + high[axis]) / 2.0
+            });
+            if middle.is_some_and(|middle| symbol.place[axis] > middle) {
+                1.0
+            } else {
+                -1.0
+            }
+        };
+        symbols::draw(&placed, &sign, drawn, canvas);
     }
 
     /// Title and time, from the left margin over a width.
@@ -312,10 +485,10 @@ impl<'a> Scene<'a> {
         );
         let time = self.results.frames[frame].time;
         let mut line = format!("time {}", axis::number(time, 5));
-        if self.scale != 1.0 {
-            line += &format!(", displacements × {}", axis::number(self.scale, 4));
+        if self.look.scale != 1.0 {
+            line += &format!(", displacements × {}", axis::number(self.look.scale, 4));
         }
-        if let Some(words) = &self.shown.words {
+        if let Some(words) = &self.words {
             line += &format!(", {words}");
         }
         let line = shorten(&line, em, width);
@@ -343,182 +516,20 @@ impl<'a> Scene<'a> {
         canvas.line(&line, Pen::new([209, 73, 91], 0.18 * em));
     }
 
-    /// Where the largest value of the field is on the bodies that are drawn, and that value; nothing less than zero.
-    fn most(&self, points: &PointFields) -> ([f64; 3], f64) {
-        let values = values(points, &self.skin, self.field.as_ref());
-        let mut best = ([0.0; 3], 0.0);
-        for (i, &p) in self.skin.points.iter().enumerate() {
-            // Of values that are alike the first.
-            if self.shown.bodies[self.skin.owner[i] as usize] && values[i] > best.1 * (1.0 + 1e-9) {
-                let (x, u) = (self.skin.positions[i], displacement(points, p));
-                best = ([0, 1, 2].map(|c| x[c] + self.scale * u[c]), values[i]);
-            }
-        }
-        best
-    }
-
     /// Paints the bodies into a rectangle so that a box of the picture's plane fills it; returns where points are on its raster, and that.
     fn bodies(
         &self,
-        number: usize,
+        frame: usize,
         points: &PointFields,
         [at, area]: [[f64; 2]; 2],
         bounds: zoom::Box2,
         em: f64,
         canvas: &mut dyn Canvas,
     ) -> (Frame, Raster) {
-        let fine = FINE as f64;
-        let size = area.map(|n| (n * fine) as usize);
-        let rim = 0.6 * em * fine;
-        let room = [0, 1].map(|c| (size[c] as f64 - 2.0 * rim).max(1.0));
-        let frame = Frame::fit(bounds[0], bounds[1], [rim, rim], room);
-        let mut raster = Raster::new(size);
-        self.paint(points, &frame, &mut raster, em, false);
-        if self.mirror.is_some() {
-            self.paint(points, &frame, &mut raster, em, true);
-        }
-        let time = self.results.frames[number].time;
-        for outline in &self.obstacles {
-            // By the same factor as the bodies.
-            let (from, to) = (outline.at(0.0), outline.at(time));
-            let ends: Vec<[f64; 3]> = from
-                .iter()
-                .zip(&to)
-                .map(|(x, y)| [0, 1, 2].map(|c| x[c] + self.scale * (y[c] - x[c])))
-                .map(|x| frame.place(self.camera.see(x)))
-                .collect();
-            for line in &outline.lines {
-                let ends = line.map(|i| ends[i as usize]);
-                raster.line(ends, 0.8 * fine, 0.0, SOFT, 0.8);
-            }
-        }
+        let size = area.map(|n| (n * FINE as f64) as usize);
+        let time = self.results.frames[frame].time;
+        let (place, raster) = self.look.paint(points, time, size, bounds, em);
         canvas.picture(at, size, FINE, &raster.pixels);
-        (frame, raster)
+        (place, raster)
     }
-
-    /// Paints the bodies, or what a mirror shows of them.
-    fn paint(
-        &self,
-        points: &PointFields,
-        frame: &Frame,
-        raster: &mut Raster,
-        em: f64,
-        mirrored: bool,
-    ) {
-        let fine = FINE as f64;
-        let mut values = values(points, &self.skin, self.field.as_ref());
-        let mirror = self.mirror.filter(|_| mirrored);
-        if mirror.is_some_and(|(axis, _)| self.field.as_ref().is_some_and(|f| f.turns(axis))) {
-            values.iter_mut().for_each(|v| *v = -*v);
-        }
-        let moved: Vec<[f64; 3]> = (self.skin.points.iter())
-            .zip(&self.skin.positions)
-            .map(|(&p, x)| {
-                let u = displacement(points, p);
-                let x = [0, 1, 2].map(|c| x[c] + self.scale * u[c]);
-                zoom::image(x, mirror)
-            })
-            .collect();
-        let seen: Vec<[f64; 3]> = (moved.iter())
-            .map(|x| frame.place(self.camera.see(*x)))
-            .collect();
-        let flat = self.skin.dim == 2;
-        for body in (0..self.skin.ends.len()).filter(|&b| self.shown.bodies[b]) {
-            for t in self.skin.triangles_of(body) {
-                let corners = t.map(|i| Corner {
-                    at: seen[i as usize],
-                    value: values[i as usize],
-                });
-                let light = if flat {
-                    1.0
-                } else {
-                    self.light(t.map(|i| moved[i as usize]))
-                };
-                raster.triangle(corners, &self.colours, light.clamp(0.0, 1.0));
-            }
-        }
-        // Edges lie in the faces: a little nearer, so that faces they bound do not hide them.
-        let lift = 1e-3 * self.skin.size();
-        for body in (0..self.skin.ends.len()).filter(|&b| self.shown.bodies[b]) {
-            let edges = self.skin.edges_of(body);
-            // Fine meshes would be black.
-            let strength = (0.5 * spacing(&seen, edges) / (6.0 * fine)).clamp(0.06, 0.5);
-            for e in edges {
-                let ends = e.map(|i| seen[i as usize]);
-                raster.line(ends, 0.5 * fine, lift, INK, strength);
-            }
-        }
-        if flat && values.iter().any(|v| v.is_nan()) {
-            self.rim(&seen, &values, em, raster);
-        }
-    }
-
-    /// How bright a triangle is.
-    fn light(&self, [a, b, c]: [[f64; 3]; 3]) -> f64 {
-        let edge = |p: [f64; 3]| [0, 1, 2].map(|k| p[k] - a[k]);
-        let normal = unit(self.camera.see(cross(edge(b), edge(c))));
-        0.70 + 0.26 * normal[2].abs() + 0.06 * normal[1] * normal[2].signum()
-    }
-
-    /// In a plane a surface is a line: the field of contact is drawn along it as a ribbon.
-    fn rim(&self, seen: &[[f64; 3]], values: &[f64], em: f64, raster: &mut Raster) {
-        let width = 0.45 * em * FINE as f64;
-        let front = self.skin.size();
-        let visible = |i: u32| self.shown.bodies[self.skin.owner[i as usize] as usize];
-        let pieces = self
-            .skin
-            .rim
-            .iter()
-            .filter(|e| visible(e[0]) && e.iter().all(|i| !values[*i as usize].is_nan()));
-        let pieces: Vec<&[u32; 2]> = pieces.collect();
-        for &&[a, b] in &pieces {
-            let ends = [seen[a as usize], seen[b as usize]];
-            raster.line(ends, 1.35 * width, front, INK, 1.0);
-        }
-        const CUTS: usize = 8;
-        for &&[a, b] in &pieces {
-            let (x, y) = (seen[a as usize], seen[b as usize]);
-            let (v, w) = (values[a as usize], values[b as usize]);
-            for k in 0..CUTS {
-                let at = |i: usize| {
-                    let f = i as f64 / CUTS as f64;
-                    [0, 1, 2].map(|c| x[c] + f * (y[c] - x[c]))
-                };
-                let f = (k as f64 + 0.5) / CUTS as f64;
-                let value = match self.colours.status {
-                    true => {
-                        if f < 0.5 {
-                            v
-                        } else {
-                            w
-                        }
-                    }
-                    false => v + f * (w - v),
-                };
-                let ink = self.colours.colour(value);
-                raster.line([at(k), at(k + 1)], width, front, ink, 1.0);
-            }
-        }
-    }
-}
-
-/// The values at the points of a skin; NaN where there are none.
-fn values(points: &PointFields, skin: &Skin, field: Option<&Field>) -> Vec<f64> {
-    let array = field.and_then(|f| Some((f, points.arrays.get(&f.array)?)));
-    let value = |p: &usize| {
-        array.map_or(f64::NAN, |(f, array)| match f.component {
-            Some(c) if c >= array.components => f64::NAN,
-            _ => f.value(array, *p),
-        })
-    };
-    skin.points.iter().map(value).collect()
-}
-
-/// The mean length of edges on the picture.
-fn spacing(seen: &[[f64; 3]], edges: &[[u32; 2]]) -> f64 {
-    let length = |e: &[u32; 2]| {
-        let [a, b] = e.map(|i| seen[i as usize]);
-        (b[0] - a[0]).hypot(b[1] - a[1])
-    };
-    edges.iter().map(length).sum::<f64>() / edges.len().max(1) as f64
 }

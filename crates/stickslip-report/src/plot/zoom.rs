@@ -23,18 +23,28 @@ pub fn include(bounds: &mut Box2, seen: [f64; 3]) {
     }
 }
 
-/// What a mirror across an axis at a place shows of a point; the point itself without one.
-pub fn image(mut x: [f64; 3], mirror: Option<(usize, f64)>) -> [f64; 3] {
-    if let Some((axis, at)) = mirror {
+/// A plane of symmetry: the axis that it crosses, and where.
+pub type Mirror = (usize, f64);
+
+/// What mirrors show of a point, one after the other.
+pub fn image(mut x: [f64; 3], mirrors: &[Mirror]) -> [f64; 3] {
+    for &(axis, at) in mirrors {
         x[axis] = 2.0 * at - x[axis];
     }
     x
 }
 
-/// A point and its image.
-pub fn copies(x: [f64; 3], mirror: Option<(usize, f64)>) -> impl Iterator<Item = [f64; 3]> {
-    let image = mirror.map(|_| image(x, mirror));
-    std::iter::once(x).chain(image)
+/// All ways to look at the bodies: directly, in each of the mirrors, and in several.
+pub fn images(mirrors: &[Mirror]) -> Vec<Vec<Mirror>> {
+    let mut all = vec![Vec::new()];
+    for mirror in mirrors {
+        let more = all
+            .iter()
+            .map(|seen: &Vec<Mirror>| [&seen[..], &[*mirror]].concat());
+        let more: Vec<Vec<Mirror>> = more.collect();
+        all.extend(more);
+    }
+    all
 }
 
 /// Leaves only the cells whose middle is below a place on an axis.
@@ -61,22 +71,16 @@ pub fn keep_below(grid: &mut Grid, axis: usize, at: f64) {
     (grid.offsets, grid.connectivity) = (offsets, connectivity);
 }
 
-/// The box around all that presses.
-pub fn patch<'a>(
-    sheets: impl Iterator<Item = &'a Sheet>,
-    scale: f64,
-    mirror: Option<(usize, f64)>,
-    camera: &Camera,
-) -> Box2 {
-    let mut patch = NOTHING;
-    for sheet in sheets {
-        for i in sheet.pressing() {
-            for x in copies(sheet.place(i, scale), mirror) {
-                include(&mut patch, camera.see(x));
-            }
+/// The box around these points and their images.
+pub fn around(points: impl Iterator<Item = [f64; 3]>, mirrors: &[Mirror], camera: &Camera) -> Box2 {
+    let images = images(mirrors);
+    let mut bounds = NOTHING;
+    for x in points {
+        for seen in &images {
+            include(&mut bounds, camera.see(image(x, seen)));
         }
     }
-    patch
+    bounds
 }
 
 /// The box that is seen.
@@ -169,6 +173,16 @@ mod tests {
         assert_eq!(factor(2.0, 1e-6), 100_000.0);
         assert_eq!(factor(1.0, 0.0), 1.0);
         assert_eq!(factor(1.0, 0.04), 1.0);
+    }
+
+    #[test]
+    fn two_mirrors_make_a_whole_of_a_quarter() {
+        let mirrors = [(0, 0.0), (1, 1.0)];
+        let of = |seen: &Vec<Mirror>| image([2.0, 3.0, 4.0], seen);
+        let all: Vec<[f64; 3]> = images(&mirrors).iter().map(of).collect();
+        let corners = [[2., 3., 4.], [-2., 3., 4.], [2., -1., 4.], [-2., -1., 4.]];
+        assert_eq!(all, corners);
+        assert_eq!(images(&[]), [Vec::new()]);
     }
 
     const ALL: Box2 = [[0.0, 0.0], [10.0, 4.0]];

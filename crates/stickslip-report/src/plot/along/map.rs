@@ -11,7 +11,7 @@ use super::page::Page;
 use super::unroll;
 use crate::colour::Scale;
 use crate::draw::{Anchor, Canvas, Pen};
-use crate::field::{Field, STATUS};
+use crate::field::{Field, Part, STATUS};
 use crate::sheet::Sheet;
 use crate::units::behind;
 
@@ -120,7 +120,10 @@ impl Panel<'_> {
         let field = Field {
             name: name.into(),
             array: name.into(),
-            component: array.filter(|a| a.components == 1).map(|_| 0),
+            part: match array {
+                Some(array) if array.components > 1 => Part::Magnitude,
+                _ => Part::Component(0),
+            },
         };
         let count = self.plan.len();
         let values: Vec<f64> = match array {
@@ -135,6 +138,7 @@ impl Panel<'_> {
             signed,
             status: name == STATUS,
             carried: !signed,
+            ..Scale::default()
         };
         let mut raster = Raster::new(area.map(|a| (a * fine) as usize));
         self.paint(&values, &colours, &frame, &mut raster);
@@ -152,6 +156,8 @@ impl Panel<'_> {
             unit: &unit,
             colours: &colours,
             values: &values,
+            words: &[axis::between([low, high])],
+            statuses: None,
         };
         let size = [self.bar - 1.2 * em, area[1].max(12.0 * em)];
         legend::bar(&shown, place, size, em, canvas);
@@ -244,7 +250,7 @@ impl Panel<'_> {
         let drawn = Drawn {
             see: &|x| frame.place(x),
             hides: &|_| false,
-            scale: 1.0,
+            places: &|_, _| Vec::new(),
             at: self.at,
             area,
             em,

@@ -69,7 +69,7 @@ pub fn along(directory: &Path, file: Option<&Path>, wanted: &Along) -> Result<Ve
         // Where something wears there is the other side of the scar as well.
         let opposite = format!("{}{OPPOSITE}", wanted.interface);
         let known = ["CWEAR", "CDISS"].contains(&field.as_str());
-        let last = files::chosen(&results, wanted.when)?.pop();
+        let last = files::chosen(&results, wanted.when, wanted.field.as_deref())?.pop();
         let sheet = last.map(|frame| results.sheet(frame, &opposite));
         let worn = sheet.transpose()?.flatten().is_some_and(|s| s.flat());
         if known && worn {
@@ -80,7 +80,7 @@ pub fn along(directory: &Path, file: Option<&Path>, wanted: &Along) -> Result<Ve
         return Ok(written);
     }
     let mut written = Vec::new();
-    for frame in files::chosen(&results, wanted.when)? {
+    for frame in files::chosen(&results, wanted.when, wanted.field.as_deref())? {
         let sheets = results.sheets(frame)?;
         let sheet = sheets.iter().find(|s| s.name == wanted.interface);
         let sheet = sheet.ok_or_else(|| {
@@ -123,7 +123,7 @@ fn lines(
     wanted: &Along,
     file: &Path,
 ) -> Result<(), Error> {
-    let frames = files::chosen(results, wanted.when)?;
+    let frames = files::chosen(results, wanted.when, Some(field))?;
     let lines = over::table(results, surface, field, wanted.zoom, &frames)?;
     if is_table(file) {
         return csv::write(file, &lines);
