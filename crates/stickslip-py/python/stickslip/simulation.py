@@ -44,7 +44,8 @@ class _Owner(Protocol):
 class _OfProblem(Protocol):
     """A `Problem`, which makes simulations and so knows them; they know what is behind it."""
 
-    _core: _core.Problem
+    @property
+    def _core(self) -> _core.Problem: ...
 
 
 @dataclass(frozen=True)
@@ -403,8 +404,7 @@ class Simulation:
     @property
     def problem(self) -> dict[str, Any]:
         """The tables of the problem, as they are run."""
-        tables: dict[str, Any] = json.loads(self._problem.tables())
-        return tables
+        return self._problem.tables()
 
     def _body(self, interface: str) -> Optional[str]:
         return body_of(self.problem, interface)
