@@ -308,7 +308,7 @@ class Simulation:
             for step in self:
                 if bar:
                     bar.show((step.time - begin) / (end - begin), f"{step.name}, {step.stick} stick, {step.slip} slip, {step.open} open")
-                if callback is not None and callback(step) is False:
+                if callback is not None and ends(callback(step)):
                     break
         finally:
             if bar:
@@ -476,6 +476,11 @@ class Simulation:
 
     def _repr_html_(self) -> str:
         return _show.table("simulation", self._told())
+
+
+def ends(answer: Any) -> bool:
+    """Whether a callback has said that it is enough: a comparison of numbers of NumPy is no ``False`` of Python."""
+    return isinstance(answer, (bool, np.bool_)) and not answer
 
 
 def told(summary: dict[str, Any]) -> list[tuple[str, Any]]:
