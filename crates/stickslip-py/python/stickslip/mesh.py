@@ -37,7 +37,7 @@ class Mesh:
     Parameters
     ----------
     points
-        Coordinates, shape ``(n, 2)`` or ``(n, 3)`` [length].
+        Coordinates, shape ``(n, 2)`` or ``(n, 3)``.
     cells
         Node indices from 0 by kind of cell, shape ``(cells, nodes)``: ``tri3``, ``tri6``, ``quad4``, ``quad8``, ``tet4``, ``tet10``,
         ``wedge6``, ``wedge15``, ``hex8``, ``hex20``, with nodes in the order of VTK. Cells of lines (in the plane) or surfaces (in space) are not allowed here: see

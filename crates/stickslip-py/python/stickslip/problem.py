@@ -139,7 +139,8 @@ class Problem:
     ) -> Problem:
         """From a dictionary with the tables of a problem file.
 
-        Values may be NumPy arrays and numbers, and paths. ``None`` leaves a key out. A mesh of arrays stands in its body, ``{"block": {"mesh": mesh, "material": "steel"}}``, or is one of `meshes` and named there, ``{"mesh": {"name": "NAME"}}``. Files are
+        Values may be NumPy arrays and numbers, and paths. ``None`` leaves a key out. The builders of `stickslip.tables` are such dictionaries. A mesh of arrays
+        stands in its body, ``{"block": {"mesh": mesh, "material": "steel"}}``, or is one of `meshes` and named there, ``{"mesh": {"name": "NAME"}}``. Files are
         looked for in `folder` (default: the working directory).
         """
         place = None if folder is None else Path(folder)
