@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Builds the wheel, installs it into a virtual environment of its own, and runs the Python tests with it. Sets up all it needs.
-#   ci.sh [PROFILE]    PROFILE: dev (the default) or release
+#   ci.sh [PROFILE] [write]    PROFILE: dev (the default) or release; write: writes what follows from the schema, the options of `plot` and docstrings
+#                              (written.py), instead of testing
 set -euo pipefail
 cd "$(dirname "$0")"
 profile=${1:-dev}
@@ -8,7 +9,7 @@ target=$(cd ../.. && pwd)/target
 venv=$target/python
 [ -x "$venv/bin/python" ] || python3 -m venv "$venv"
 "$venv/bin/pip" install --quiet --disable-pip-version-check \
-    'maturin>=1.7,<2' numpy pytest pyvista meshio matplotlib pandas tqdm rich
+    'maturin>=1.7,<2' numpy pytest mypy pyvista meshio matplotlib pandas tqdm rich
 rm -rf "$target/wheels"
 # Tests are small: in the dev profile the library need not be optimised, which takes a minute instead of five.
 fast=()
@@ -19,4 +20,7 @@ if [ "$profile" = dev ]; then
 fi
 "$venv/bin/maturin" build --profile "$profile" --out "$target/wheels" --quiet "${fast[@]}"
 "$venv/bin/pip" install --quiet --disable-pip-version-check --force-reinstall --no-deps "$target"/wheels/stickslip-*.whl
+if [ "${2:-}" = write ]; then
+    exec "$venv/bin/python" written.py
+fi
 PATH=$venv/bin:$PATH "$venv/bin/python" -m pytest --quiet

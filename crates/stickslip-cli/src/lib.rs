@@ -131,6 +131,36 @@ pub fn pictures<T: Into<OsString> + Clone>(
     commands::plot::draw(&arguments).map_err(|failure| render::plain(&failure))
 }
 
+/// An option of a command.
+pub struct CommandOption {
+    /// Its name, without dashes.
+    pub name: String,
+    /// What its value is called in the help, `x|y|z[=PLACE]`; a switch has none.
+    pub value: Option<String>,
+    /// Whether it may be given more than once, or takes a list.
+    pub repeated: bool,
+    /// What it does.
+    pub help: String,
+}
+
+/// The options of `stickslip plot`, in the order of its help.
+pub fn plot_options() -> Vec<CommandOption> {
+    let command = commands::plot::Arguments::augment_args(clap::Command::new("plot"));
+    let options = command.get_arguments().filter_map(|argument| {
+        let takes = argument.get_action().takes_values();
+        let names = argument.get_value_names().filter(|_| takes);
+        Some(CommandOption {
+            name: argument.get_long()?.to_string(),
+            value: names.map(|names| names.join(" ")),
+            repeated: matches!(argument.get_action(), clap::ArgAction::Append),
+            help: argument
+                .get_help()
+                .map_or_else(String::new, |help| help.to_string()),
+        })
+    });
+    options.collect()
+}
+
 /// The number of an exit code, for programs that call [`main_with`].
 pub fn number(code: ExitCode) -> u8 {
     // The standard library does not tell; there are not many.

@@ -29,6 +29,15 @@ fn pictures(py: Python<'_>, options: Vec<OsString>) -> PyResult<(Vec<PathBuf>, V
     drawn.map_err(|message| PyValueError::new_err(message.trim().to_string()))
 }
 
+/// The options of `stickslip plot`: name, what its value is called (`None`: a switch), whether it may be repeated, and its help.
+#[pyfunction]
+fn plot_options() -> Vec<(String, Option<String>, bool, String)> {
+    let options = stickslip_cli::plot_options().into_iter();
+    options
+        .map(|o| (o.name, o.value, o.repeated, o.help))
+        .collect()
+}
+
 /// The JSON schema of problem files.
 #[pyfunction]
 fn schema() -> String {
@@ -58,7 +67,7 @@ mod _core {
     #[pymodule_export]
     use super::run::Simulation;
     #[pymodule_export]
-    use super::{command, pictures, schema, set_threads};
+    use super::{command, pictures, plot_options, schema, set_threads};
 
     #[pymodule_export]
     const VERSION: &str = env!("CARGO_PKG_VERSION");

@@ -92,6 +92,27 @@ impl Problem {
         }
     }
 
+    fn of_tables(
+        py: Python<'_>,
+        dict: &Bound<'_, PyAny>,
+        folder: Option<PathBuf>,
+        meshes: Meshes,
+    ) -> PyResult<Self> {
+        let text = value::document(dict)?;
+        let mut document = Document::new(text, None);
+        // Only its folder counts: the name must not show in messages, as there is no such file.
+        let place = folder.map(|f| f.join("problem"));
+        let problem = document.problem().map_err(|e| raise(py, e.into()))?;
+        document.file = place;
+        Ok(Problem {
+            document,
+            problem,
+            meshes,
+            deck: None,
+            notes: Vec::new(),
+        })
+    }
+
     fn setup(&self) -> Result<Setup, Error> {
         let folder = self.document.folder();
         let built = self.problem.build_with(&folder, &self.meshes);
@@ -135,19 +156,30 @@ impl Problem {
         folder: Option<PathBuf>,
         meshes: BTreeMap<String, PyRef<'_, Mesh>>,
     ) -> PyResult<Self> {
-        let text = value::document(dict)?;
-        let mut document = Document::new(text, None);
-        // Only its folder counts: the name must not show in messages, as there is no such file.
-        let place = folder.map(|f| f.join("problem"));
-        let problem = document.problem().map_err(|e| raise(py, e.into()))?;
-        document.file = place;
+        Problem::of_tables(py, dict, folder, given(meshes))
+    }
+
+    /// The same problem with other tables, and more meshes.
+    fn with_tables(
+        &self,
+        py: Python<'_>,
+        dict: &Bound<'_, PyAny>,
+        meshes: BTreeMap<String, PyRef<'_, Mesh>>,
+    ) -> PyResult<Self> {
+        let mut all = self.meshes.clone();
+        all.extend(given(meshes));
+        let folder = self.document.file.as_ref().map(|_| self.document.folder());
+        let problem = Problem::of_tables(py, dict, folder, all)?;
         Ok(Problem {
-            document,
-            problem,
-            meshes: given(meshes),
-            deck: None,
-            notes: Vec::new(),
+            notes: self.notes(),
+            ..problem
         })
+    }
+
+    /// The names of the meshes that it was given.
+    #[getter]
+    fn meshes(&self) -> Vec<String> {
+        self.meshes.keys().map(|name| text(name)).collect()
     }
 
     /// From an input deck of Abaqus or CalculiX.
@@ -234,9 +266,11 @@ impl Problem {
         self.problem.to_toml().map_err(|e| raise(py, e.into()))
     }
 
-    /// Its tables as JSON.
-    fn tables(&self) -> String {
-        serde_json::to_string(&self.problem).unwrap_or_default()
+    /// Its tables as dictionaries, with the values that hold where nothing is said.
+    fn tables<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let table = toml::Table::try_from(&self.problem);
+        let table = table.map_err(|e| PyValueError::new_err(e.to_string()))?;
+        value::dict(py, &table)
     }
 
     /// What the doctor says of the problem before it is run: as text, and as JSON.

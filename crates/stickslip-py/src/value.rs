@@ -15,6 +15,33 @@ pub fn document(dict: &Bound<'_, PyAny>) -> PyResult<String> {
     }
 }
 
+/// A table as a dictionary.
+pub fn dict<'py>(py: Python<'py>, table: &toml::Table) -> PyResult<Bound<'py, PyDict>> {
+    let out = PyDict::new(py);
+    for (key, value) in table {
+        out.set_item(key, object(py, value)?)?;
+    }
+    Ok(out)
+}
+
+fn object<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
+    Ok(match value {
+        Value::Boolean(yes) => PyBool::new(py, *yes).to_owned().into_any(),
+        Value::Integer(number) => number.into_pyobject(py)?.into_any(),
+        Value::Float(number) => PyFloat::new(py, *number).into_any(),
+        Value::String(text) => PyString::new(py, text).into_any(),
+        Value::Datetime(date) => PyString::new(py, &date.to_string()).into_any(),
+        Value::Table(table) => dict(py, table)?.into_any(),
+        Value::Array(list) => {
+            let out = PyList::empty(py);
+            for value in list {
+                out.append(object(py, value)?)?;
+            }
+            out.into_any()
+        }
+    })
+}
+
 /// A value as it is written behind `path=`.
 pub fn inline(object: &Bound<'_, PyAny>, path: &str) -> PyResult<String> {
     match value(object, path)? {

@@ -26,11 +26,46 @@ def block(rectangle):
 def test_a_mesh_of_arrays_gives_what_the_generator_gives(case, block):
     wanted = last_shear(case)
     del case["body"]["block"]["generate"]
-    case["body"]["block"]["gmsh"] = {"file": "mine"}
     mesh = stickslip.Mesh(**block)
     assert (mesh.point_count, mesh.cell_count) == (36, 25)
     assert mesh.sets == {"point": ["top"], "cell": [], "facet": ["bottom"]}
+    case["body"]["block"]["mesh"] = mesh
+    assert last_shear(case) == pytest.approx(wanted, rel=1e-9)
+    case["body"]["block"]["mesh"] = {"name": "mine"}
     assert last_shear(case, meshes={"mine": mesh}) == pytest.approx(wanted, rel=1e-9)
+    # As a file that is not there.
+    del case["body"]["block"]["mesh"]
+    case["body"]["block"]["gmsh"] = {"file": "mine"}
+    assert last_shear(case, meshes={"mine": mesh}) == pytest.approx(wanted, rel=1e-9)
+
+
+def test_meshes_are_named_by_their_bodies_and_may_be_exchanged(case, block):
+    wanted = last_shear(case)
+    del case["body"]["block"]["generate"]
+    mesh = stickslip.Mesh(**block)
+    case["body"]["block"]["mesh"] = mesh
+    problem = stickslip.Problem.from_dict(case)
+    assert problem["body.block.mesh"] == {"name": "block"} and 'mesh.name = "block"' in problem.to_toml().replace("[body.block.mesh]\nname", "mesh.name")
+    shrunk = stickslip.Mesh(block["points"] * [1.0, 0.5], block["cells"], block["point_sets"], facet_sets=block["facet_sets"])
+    problem["body.block.mesh"] = shrunk
+    other = problem.build().run().history["press.CFS1"][-1]
+    assert other != pytest.approx(wanted, rel=1e-3)
+    problem["body.block.mesh"] = mesh
+    assert problem.build().run().history["press.CFS1"][-1] == pytest.approx(wanted, rel=1e-9)
+
+
+def test_a_mesh_that_was_not_given_is_named(case, block):
+    del case["body"]["block"]["generate"]
+    case["body"]["block"]["mesh"] = {"name": "mine"}
+    with pytest.raises(stickslip.ProblemError, match="no mesh `mine` was given") as caught:
+        stickslip.Problem.from_dict(case).build()
+    assert caught.value.findings[0]["key"] == "body.block.mesh.name" and "meshes=" in str(caught.value)
+    mesh = stickslip.Mesh(**block)
+    with pytest.raises(stickslip.ProblemError, match="these were given: yours"):
+        stickslip.Problem.from_dict(case, meshes={"yours": mesh}).build()
+    case["body"]["block"]["mesh"] = {"name": mesh, "group": "none"}
+    with pytest.raises(stickslip.ProblemError, match="has no cell set `none`"):
+        stickslip.Problem.from_dict(case).build()
 
 
 def test_meshio_meshes_keep_their_sets(case, block):
@@ -46,8 +81,8 @@ def test_meshio_meshes_keep_their_sets(case, block):
     assert (mesh.point_count, mesh.cell_count) == (36, 25)
     assert mesh.sets == {"point": ["top"], "cell": ["all"], "facet": ["bottom"]}
     del case["body"]["block"]["generate"]
-    case["body"]["block"]["gmsh"] = {"file": "mine", "group": "all"}
-    assert last_shear(case, meshes={"mine": mesh}) == pytest.approx(wanted, rel=1e-9)
+    case["body"]["block"]["mesh"] = {"name": mesh, "group": "all"}
+    assert last_shear(case) == pytest.approx(wanted, rel=1e-9)
 
 
 def test_pyvista_grids_in_space():

@@ -1,6 +1,7 @@
 """What people see: how objects tell of themselves, pictures, results in folders, tables, progress, messages."""
 
 import copy
+import inspect
 import logging
 import pickle
 import re
@@ -51,6 +52,12 @@ def test_pictures_are_those_of_the_program(done, tmp_path):
     # The same picture comes of the files that a run writes.
     folder = done.save(tmp_path / "simulation")
     assert stickslip.open(folder).plot("CPRESS", size=(400, 300)).data == picture.data
+
+
+def test_options_of_pictures_are_in_the_signature(done):
+    parameters = inspect.signature(done.plot).parameters
+    assert {"field", "ending", "scale", "view", "history", "against"} <= set(parameters)
+    assert set(stickslip.PlotOptions.__annotations__) == set(parameters) - {"field", "ending"}
 
 
 def test_pictures_say_what_is_wrong_with_them(done):
@@ -186,9 +193,9 @@ def test_the_namespace_is_clean():
     import types
 
     public = {n for n, v in vars(stickslip).items() if not n.startswith("_") and not isinstance(v, types.ModuleType)}
-    assert public == set(stickslip.__all__)
+    assert public | {"tables"} == set(stickslip.__all__)
     modules = {n for n, v in vars(stickslip).items() if not n.startswith("_") and isinstance(v, types.ModuleType)}
-    assert modules <= {"mesh", "problem", "results", "simulation"}
+    assert modules <= {"mesh", "problem", "results", "simulation", "tables"}
     assert set(stickslip.__all__) <= set(dir(stickslip)) and "json" not in dir(stickslip)
 
 

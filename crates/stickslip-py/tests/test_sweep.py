@@ -1,5 +1,9 @@
 """Parameter studies."""
 
+import sys
+import types
+
+import numpy as np
 import pytest
 
 import stickslip
@@ -53,3 +57,49 @@ def test_parts_have_all_runs_once(problem):
     assert [{k: v for k, v in row.items() if k != "run"} for row in together] == list(whole)
     with pytest.raises(ValueError, match="counted from 1 to 2"):
         stickslip.sweep(problem, axes, shard=(3, 2))
+
+
+def test_values_may_be_arrays_ranges_and_series(problem):
+    pandas = pytest.importorskip("pandas")
+    cases = [np.linspace(0.1, 0.2, 2), (0.1 * i for i in (1, 2)), pandas.Series([0.1, 0.2])]
+    for values in cases:
+        rows = stickslip.sweep(problem, {MU: values, "step.1.increments.fixed": range(2, 3)})
+        assert [row[MU] for row in rows] == [0.1, 0.2] and all(row["outcome"] == "done" for row in rows)
+
+
+def peak(row, simulation):
+    return {"peak": simulation.contact("press").pressure.max()}
+
+
+def sticks(row, simulation):
+    return np.bool_(row["SLIP"] == 0)
+
+
+def test_processes_give_the_rows_of_one(problem, monkeypatch):
+    problem["step.1.increments.fixed"] = 2
+    axes = {MU: [0.1, 0.2, 0.3]}
+    alone = stickslip.sweep(problem, axes, callback=peak)
+    assert stickslip.sweep(problem, axes, callback=peak, processes=2) == alone
+    with pytest.raises(TypeError, match="functions of a module"):
+        stickslip.sweep(problem, axes, callback=lambda row, simulation: None, processes=2)
+    # A function that this process knows, and no other.
+    module = types.ModuleType("module_of_this_process")
+    exec("def peak(row, simulation): return {}", vars(module))
+    monkeypatch.setitem(sys.modules, module.__name__, module)
+    with pytest.raises(RuntimeError, match="under `if __name__"):
+        stickslip.sweep(problem, axes, callback=module.peak, processes=2)
+    with pytest.raises(ValueError, match="processes: 0"):
+        stickslip.sweep(problem, axes, processes=0)
+
+
+@pytest.mark.parametrize("processes", [None, 2])
+def test_a_sweep_stops_early(problem, processes):
+    problem["step.1.increments.fixed"] = 2
+    axes = {MU: [0.1, 0.2, 0.3, 0.4, 0.5]}
+    whole = stickslip.sweep(problem, axes)
+    at = whole[1]["press.CFS1"]
+    assert stickslip.sweep(problem, axes, stop=lambda row: row["press.CFS1"] == at, processes=processes) == whole[:2]
+    slides = [row["SLIP"] > 0 for row in whole]
+    assert True in slides[:-1]
+    ended = stickslip.sweep(problem, axes, callback=sticks, processes=processes)
+    assert ended == whole[: slides.index(True) + 1]

@@ -32,7 +32,7 @@ class MeshError(Error):
 class RunError(Error):
     """The analysis stopped before its end; results so far stay.
 
-    ``time`` [s] is how far it came, ``culprits`` names the points to look at, ``help`` says what to try.
+    ``time`` is how far it came, ``culprits`` names the points to look at, ``help`` says what to try.
     """
 
     def __init__(
@@ -53,7 +53,7 @@ class FileError(Error, OSError):
 
 
 class Interrupted(Error):
-    """The analysis was asked to stop at ``time`` [s]; results so far stay, and it can go on."""
+    """The analysis was asked to stop at ``time``; results so far stay, and it can go on."""
 
     def __init__(self, message: str, time: float = 0.0) -> None:
         super().__init__(message)

@@ -6,7 +6,7 @@ import sys
 import time
 from typing import Any, Optional
 
-#: Seconds between two plain lines on a terminal, and where nobody sees a line change.
+#: Seconds between two plain lines on a terminal, and where output is not on a terminal.
 _PATIENCE = (0.1, 10.0)
 _WIDTH = 30
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import html
+import inspect
 import os
 import tempfile
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any, Optional, Union
+from typing import Any, Callable, Optional, TypeVar, Union
 
 from . import _core
+from ._options import PlotOptions
 
 
 class Picture:
@@ -41,6 +43,18 @@ class Picture:
         return f"<stickslip.Picture: {self.ending}, {len(self.data) / 1e3:.0f} kB; .save(\"NAME.{self.ending}\") writes it>"
 
 
+_Plot = TypeVar("_Plot", bound=Callable[..., Any])
+
+
+def with_options(plot: _Plot) -> _Plot:
+    """A function that plots, with the options of the command in its signature: notebooks complete them, and `help` shows them."""
+    signature = inspect.signature(plot)
+    own = [p for p in signature.parameters.values() if p.kind is not p.VAR_KEYWORD]
+    options = [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None) for name in PlotOptions.__annotations__]
+    setattr(plot, "__signature__", signature.replace(parameters=[*own, *options]))
+    return plot
+
+
 def draw(directory: Path, ending: str, options: dict[str, Any]) -> Picture:
     """A picture of a folder of results; the options are those of the command ``stickslip plot``."""
     if options.get("time") == "all":
@@ -53,7 +67,7 @@ def draw(directory: Path, ending: str, options: dict[str, Any]) -> Picture:
         try:
             files, notes = _core.pictures(arguments)
         except ValueError as error:
-            # The folder may be one that nobody has heard of.
+            # The folder may be a temporary one.
             raise ValueError(str(error).removeprefix("error: ").removeprefix(f"{directory}: ")) from None
         return Picture(Path(files[0]).read_bytes(), ending, notes)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import html
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 
@@ -22,7 +22,7 @@ def _pandas(what: str) -> Any:
     return pandas
 
 
-class Table(dict):  # type: ignore[type-arg]
+class Table(dict[str, np.ndarray]):
     """Columns by name: a dict of arrays of one length. `to_pandas` makes a ``DataFrame`` of it."""
 
     def to_pandas(self) -> pandas.DataFrame:
@@ -30,7 +30,7 @@ class Table(dict):  # type: ignore[type-arg]
         frame = _pandas("Table.to_pandas").DataFrame(dict(self))
         return frame.set_index("TIME") if "TIME" in frame and frame["TIME"].is_unique else frame
 
-    def __missing__(self, name: str) -> Any:
+    def __missing__(self, name: str) -> NoReturn:
         raise KeyError(f"there is no column `{name}`{_near(name, list(self))}")
 
     def __repr__(self) -> str:
@@ -42,7 +42,7 @@ class Table(dict):  # type: ignore[type-arg]
         return _html(names, list(zip(*(self[name] for name in names))))
 
 
-class Rows(list):  # type: ignore[type-arg]
+class Rows(list[dict[str, Any]]):
     """Rows, each a dict. `to_pandas` makes a ``DataFrame`` of them."""
 
     def to_pandas(self) -> pandas.DataFrame:

@@ -37,7 +37,7 @@ class Mesh:
     Parameters
     ----------
     points
-        Coordinates, shape ``(n, 2)`` or ``(n, 3)`` [length].
+        Coordinates, shape ``(n, 2)`` or ``(n, 3)``.
     cells
         Node indices from 0 by kind of cell, shape ``(cells, nodes)``: ``tri3``, ``tri6``, ``quad4``, ``quad8``, ``tet4``, ``tet10``,
         ``wedge6``, ``wedge15``, ``hex8``, ``hex20``, with nodes in the order of VTK. Cells of lines (in the plane) or surfaces (in space) are not allowed here: see
@@ -50,7 +50,8 @@ class Mesh:
         Facets on the boundary by name, each given by its nodes, corners first: shape ``(facets, nodes)``, or a list of such arrays where
         facets have different numbers of nodes. Their orientation does not matter.
 
-    A mesh is given to a problem by name; the problem asks for it as for a file of Gmsh, ``gmsh = { file = "NAME" }``.
+    In a dictionary of `Problem.from_dict` it is the ``mesh`` of a body, ``{"block": {"mesh": mesh, "material": "steel"}}``; in the text of a problem it is named,
+    ``body.block.mesh.name = "NAME"``, and given to `Problem.from_toml` as ``meshes={"NAME": mesh}``. It cannot be changed.
 
     Raises
     ------
@@ -99,6 +100,9 @@ class Mesh:
             by_cell,
             by_facet,
         )
+
+    def __deepcopy__(self, memo: Any) -> Mesh:
+        return self
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (self._core.state(),)

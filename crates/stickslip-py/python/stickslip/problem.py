@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import copy
 import difflib
+import itertools
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, Optional, Union
 
 from . import _core, _laws, _show
-from ._errors import FileError
+from ._core import Factors
+from ._errors import FileError, ProblemError
 from ._laws import Laws
 from .mesh import Mesh
 from .simulation import Simulation
@@ -22,11 +25,85 @@ class Problem:
     It is made by `from_toml`, `from_dict` or `from_inp`. All of them go through the same checks: keys, types and defaults are those of
     the problem file (`stickslip.schema()`).
 
+    Its tables can be read and edited, one by one or by the path of a key; they are checked when the problem is next used:
+
+    >>> problem["interface"]["press"]["friction"] = {"coulomb": {"mu": 0.2}}
+    >>> problem["interface.press.friction.coulomb.mu"]
+    0.2
+
     It can be pickled, with the meshes it was given; files that it names have to be there when it is built.
     """
 
     def __init__(self, core: _core.Problem) -> None:
-        self._core = core
+        # What was checked last, the tables as people edit them, and as they were when they were checked.
+        self._checked = core
+        self._tables: Optional[dict[str, Any]] = None
+        self._seen: Optional[dict[str, Any]] = None
+        self._meshes: dict[str, Mesh] = {}
+
+    @property
+    def _core(self) -> _core.Problem:
+        """The problem as it stands now, checked."""
+        if self._tables is not None and _differ(self._tables, self._seen):
+            tables, meshes = _named(self._tables, {}, [*self._checked.meshes, *self._meshes], self._meshes)
+            self._checked = self._checked.with_tables(tables, _given(meshes))
+            self._meshes.update(meshes)
+            self._seen = copy.deepcopy(self._tables)
+        return self._checked
+
+    @property
+    def tables(self) -> dict[str, Any]:
+        """The tables of the problem file, with the values that hold where nothing is said. What is changed in them changes the problem."""
+        if self._tables is None:
+            self._tables = self._checked.tables()
+            self._seen = copy.deepcopy(self._tables)
+        return self._tables
+
+    def __getitem__(self, key: str) -> Any:
+        """A table or a value by its path: ``problem["support"]``, ``problem["step.0.duration"]``."""
+        at: Any = self.tables
+        for name in self._path(key):
+            at = _entry(at, name, key)
+        return at
+
+    def __setitem__(self, key: str, value: Any) -> None:
+        """Sets a table or a value by its path; tables on the way that are missing are made."""
+        *path, last = self._path(key)
+        at: Any = self.tables
+        for name in path:
+            at = at.setdefault(name, {}) if isinstance(at, dict) else _entry(at, name, key)
+        if isinstance(at, list):
+            _entry(at, last, key)
+            at[int(last)] = value
+        elif isinstance(at, dict):
+            at[last] = value
+        else:
+            raise KeyError(f"{key}: `{'.'.join(path)}` is no table")
+
+    def __delitem__(self, key: str) -> None:
+        """Takes out a table or a value: what is not said has its default."""
+        *path, last = self._path(key)
+        at: Any = self.tables
+        for name in path:
+            at = _entry(at, name, key)
+        _entry(at, last, key)
+        del at[int(last) if isinstance(at, list) else last]
+
+    def __contains__(self, key: object) -> bool:
+        try:
+            self[str(key)]
+        except KeyError:
+            return False
+        return True
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.tables)
+
+    def _path(self, key: str) -> list[str]:
+        return [key] if key in self.tables else key.split(".")
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (self._core.state(),)
@@ -62,11 +139,15 @@ class Problem:
     ) -> Problem:
         """From a dictionary with the tables of a problem file.
 
-        Values may be NumPy arrays and numbers, and paths. ``None`` leaves a key out. `meshes` are found by the names that the problem gives
-        mesh files, ``{"gmsh": {"file": "NAME"}}``; other files are looked for in `folder` (default: the working directory).
+        Values may be NumPy arrays and numbers, and paths. ``None`` leaves a key out. The builders of `stickslip.tables` are such dictionaries. A mesh of arrays
+        stands in its body, ``{"block": {"mesh": mesh, "material": "steel"}}``, or is one of `meshes` and named there, ``{"mesh": {"name": "NAME"}}``. Files are
+        looked for in `folder` (default: the working directory).
         """
         place = None if folder is None else Path(folder)
-        return cls(_core.Problem.from_dict(dict(tables), place, _given(meshes)))
+        whole, all_meshes = _named(tables, dict(meshes or {}), [], {})
+        problem = cls(_core.Problem.from_dict(whole, place, _given(all_meshes)))
+        problem._meshes = all_meshes
+        return problem
 
     @classmethod
     def from_inp(cls, path: Union[str, os.PathLike[str]]) -> Problem:
@@ -102,7 +183,7 @@ class Problem:
         text, data = self._core.check()
         return Report(text, json.loads(data))
 
-    def build(self, laws: Optional[Laws] = None, factors: Optional[_core.Factors] = None) -> Simulation:
+    def build(self, laws: Optional[Laws] = None, factors: Optional[Factors] = None) -> Simulation:
         """Reads or makes the meshes, assembles the bodies, and returns what can be run.
 
         Parameters
@@ -110,11 +191,10 @@ class Problem:
         laws
             Functions that take the place of the laws of interfaces, for prototypes: ``{"press": {"normal": f, "friction": g}}``.
 
-            ``f(gap)`` returns the pressure [Pa] at gaps [m] (negative: penetration), falling and zero far from the surface, or
-            ``(pressure, dpressure)`` with the derivative by the gap [Pa/m]. ``g(pressure, speed)`` returns the limit of the shear traction
-            [Pa] at pressures [Pa] and sliding speeds [m/s], or ``(limit, dlimit_dpressure, dlimit_dspeed)``. Arguments and results are
-            arrays of shape ``(points,)``. Functions are called a few times in every iteration with all points of the interface at
-            once, and must be functions: the same arguments give the same result. What derivatives they do not return are found by differences.
+            ``f(gap)`` returns the pressure at gaps (negative: penetration), falling and zero far from the surface, or ``(pressure, dpressure)`` with the
+            derivative by the gap. ``g(pressure, speed)`` returns the limit of the shear traction at pressures and sliding speeds, or ``(limit,
+            dlimit_dpressure, dlimit_dspeed)``. Arguments and results are arrays of one length: a few times in every iteration all points of the interface, and
+            now and then a single one. The same arguments have to give the same result. Derivatives that are not returned are found by differences.
         factors
             Factors of bodies shared with other simulations, see `sweep`.
         """
@@ -122,7 +202,7 @@ class Problem:
         return Simulation(self._core.build(factors, functions), self._core, functions)
 
     def _told(self) -> list[tuple[str, Any]]:
-        tables = json.loads(self._core.tables())
+        tables = self._core.tables()
 
         def named(key: str) -> str:
             return ", ".join(tables.get(key) or {})
@@ -141,15 +221,19 @@ class Problem:
         rows.append(("steps", f"{', '.join(names)}: time 0 to {sum(step['duration'] for step in steps):g}"))
         return rows
 
-    def _title(self) -> str:
-        title = json.loads(self._core.tables()).get("title")
-        return title or "no title"
+    def _shown(self) -> tuple[str, list[tuple[str, Any]]]:
+        """Title and lines; of a problem that was edited and is wrong what is wrong with it."""
+        try:
+            return self._core.tables().get("title") or "no title", self._told()
+        except (ProblemError, TypeError) as error:
+            return "not sound", [("edited", line) for line in str(error).splitlines() if line.strip()]
 
     def __repr__(self) -> str:
-        return _show.lines(f"<stickslip.Problem: {self._title()}>", self._told())
+        title, rows = self._shown()
+        return _show.lines(f"<stickslip.Problem: {title}>", rows)
 
     def _repr_html_(self) -> str:
-        return _show.table(self._title(), self._told())
+        return _show.table(*self._shown())
 
 
 class Report(dict):  # type: ignore[type-arg]
@@ -194,6 +278,52 @@ def _beside(file: Path) -> str:
 
 def _restored(state: bytes) -> Problem:
     return Problem(_core.Problem.restore(state))
+
+
+def _differ(tables: Any, seen: Any) -> bool:
+    try:
+        return bool(tables != seen)
+    except ValueError:
+        # Arrays among the values have no single answer.
+        return True
+
+
+def _entry(at: Any, name: str, key: str) -> Any:
+    """What a table or list has under a name."""
+    try:
+        return at[int(name) if isinstance(at, list) else name]
+    except (KeyError, IndexError, TypeError, ValueError):
+        names = list(at) if isinstance(at, dict) else [str(i) for i in range(len(at))] if isinstance(at, list) else []
+        close = difflib.get_close_matches(name, names, n=3, cutoff=0.5) or names[:8]
+        there = f"; there is: {', '.join(close)}" if close else ""
+        raise KeyError(f"{key}: there is no `{name}`{there}") from None
+
+
+def _named(
+    tables: Mapping[str, Any], meshes: dict[str, Mesh], taken: Iterable[str], known: Mapping[str, Mesh]
+) -> tuple[dict[str, Any], dict[str, Mesh]]:
+    """The tables with meshes by their names, and the meshes by these names."""
+    whole = dict(tables)
+
+    def name(mesh: Mesh, body: str) -> str:
+        for there, other in [*meshes.items(), *known.items()]:
+            if other is mesh:
+                return there
+        numbers = itertools.chain([""], (f"-{i}" for i in itertools.count(2)))
+        new = next(body + n for n in numbers if body + n not in meshes and body + n not in taken)
+        meshes[new] = mesh
+        return new
+
+    bodies = whole.get("body")
+    if isinstance(bodies, Mapping):
+        whole["body"] = dict(bodies)
+        for body, table in bodies.items():
+            source = table.get("mesh") if isinstance(table, Mapping) else None
+            if isinstance(source, Mesh):
+                source = {"name": source}
+            if isinstance(source, Mapping) and isinstance(source.get("name"), Mesh):
+                whole["body"][body] = {**table, "mesh": {**source, "name": name(source["name"], str(body))}}
+    return whole, meshes
 
 
 def _given(meshes: Optional[Mapping[str, Mesh]]) -> dict[str, _core.Mesh]:

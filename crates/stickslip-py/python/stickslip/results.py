@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Optional, Union
+from typing import TYPE_CHECKING, Any, Literal, Optional, Union
 
 import numpy as np
 
@@ -16,6 +16,10 @@ from .simulation import Contact, body_of, told
 
 if TYPE_CHECKING:
     import pyvista
+    from typing_extensions import Unpack
+
+    from ._options import PlotOptions
+    from ._summary import Summary
 
 
 class Results:
@@ -40,9 +44,9 @@ class Results:
         return self._core.missing
 
     @property
-    def summary(self) -> dict[str, Any]:
+    def summary(self) -> Summary:
         """What ``summary.json`` holds: outcome, counts, times, energies, quality, findings. Empty where the run has not come to its end."""
-        summary: Optional[dict[str, Any]] = json.loads(self._core.summary)
+        summary: Optional[Summary] = json.loads(self._core.summary)
         return summary or {}
 
     @property
@@ -57,7 +61,7 @@ class Results:
 
     @property
     def times(self) -> np.ndarray:
-        """Times at which fields were written, ``(times,)`` [s]."""
+        """Times at which fields were written, ``(times,)``."""
         return np.asarray(self._core.times, dtype=float)
 
     @property
@@ -87,7 +91,7 @@ class Results:
 
     @property
     def points(self) -> np.ndarray:
-        """Coordinates of all bodies, ``(n, 3)`` [length]."""
+        """Coordinates of all bodies, ``(n, 3)``."""
         return np.asarray(self._core.grid(self._number(-1))[0])
 
     def fields(self, index: int = -1) -> dict[str, np.ndarray]:
@@ -111,7 +115,8 @@ class Results:
             grid.points = grid.points + warp * grid.point_data["U"]
         return grid
 
-    def plot(self, field: Optional[str] = None, ending: str = "png", **options: Any) -> Picture:
+    @_show.with_options
+    def plot(self, field: Optional[str] = None, ending: Literal["png", "svg"] = "png", **options: Unpack[PlotOptions]) -> Picture:
         """The picture that ``stickslip plot`` draws, which Jupyter shows. See `Simulation.plot`."""
         return _show.draw(self.directory, ending, {"field": field, **options})
 

@@ -10,7 +10,7 @@ import tempfile
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Callable, Optional, Protocol, Union
+from typing import TYPE_CHECKING, Any, Callable, Literal, Optional, Protocol, Union
 
 import numpy as np
 
@@ -23,6 +23,10 @@ from .mesh import _KINDS
 
 if TYPE_CHECKING:
     import pyvista
+    from typing_extensions import Unpack
+
+    from ._options import PlotOptions
+    from ._summary import Summary
 
 
 #: What a picture calls a problem without a title.
@@ -36,7 +40,7 @@ class _Owner(Protocol):
     @property
     def problem(self) -> Any: ...
 
-    def plot(self, field: Optional[str] = None, ending: str = "png", **options: Any) -> Picture: ...
+    def plot(self, field: Optional[str] = None, ending: Literal["png", "svg"] = "png", **options: Unpack[PlotOptions]) -> Picture: ...
 
     def _body(self, interface: str) -> Optional[str]: ...
 
@@ -44,14 +48,15 @@ class _Owner(Protocol):
 class _OfProblem(Protocol):
     """A `Problem`, which makes simulations and so knows them; they know what is behind it."""
 
-    _core: _core.Problem
+    @property
+    def _core(self) -> _core.Problem: ...
 
 
 @dataclass(frozen=True)
 class Step:
     """An accepted increment."""
 
-    #: Its end [s].
+    #: Its end.
     time: float
     #: Name of the step of the analysis that it belongs to.
     name: str
@@ -61,9 +66,11 @@ class Step:
     attempt: int
     #: Newton iterations.
     iterations: int
-    #: Contact points that are open, stick and slip.
+    #: Contact points that are open.
     open: int
+    #: Contact points that stick.
     stick: int
+    #: Contact points that slip.
     slip: int
     #: The row of the history: resultants of interfaces, reactions of supports, energies, probes, by name.
     row: dict[str, float] = field(repr=False)
@@ -77,7 +84,7 @@ class Contact:
     ) -> None:
         #: Name of the interface.
         self.name = name
-        #: Time of the increment [s].
+        #: Time of the increment.
         self.time = time
         self._columns = columns
         self._dim = dim
@@ -87,7 +94,8 @@ class Contact:
         # What it belongs to may be large, and is needed for pictures only.
         return {**self.__dict__, "_owner": None}
 
-    def plot(self, field: str = "CPRESS", ending: str = "png", **options: Any) -> Picture:
+    @_show.with_options
+    def plot(self, field: str = "CPRESS", ending: Literal["png", "svg"] = "png", **options: Unpack[PlotOptions]) -> Picture:
         """The picture that ``stickslip plot`` draws of a field of contact, which Jupyter shows. See `Simulation.plot`.
 
         In space the body of the secondary is drawn alone, as the other one would hide the surface; ``body="NAME"`` chooses another.
@@ -103,8 +111,9 @@ class Contact:
             raise RuntimeError(
                 f"interface `{self.name}`: these are the points at time {self.time:g}, and the simulation has gone on: ask it again"
             )
-        if self._dim == 3:
-            options.setdefault("body", self._owner._body(self.name))
+        body = self._owner._body(self.name)
+        if self._dim == 3 and body is not None:
+            options.setdefault("body", body)
         return self._owner.plot(field, ending, **options)
 
     def _told(self) -> list[tuple[str, Any]]:
@@ -127,7 +136,7 @@ class Contact:
 
     @property
     def points(self) -> np.ndarray:
-        """Reference coordinates, ``(n, 3)`` [length]."""
+        """Reference coordinates, ``(n, 3)``."""
         return self._vectors("x", "y", "z")
 
     @property
@@ -137,22 +146,22 @@ class Contact:
 
     @property
     def pressure(self) -> np.ndarray:
-        """Pressure, ``(n,)`` [Pa], positive in compression."""
+        """Pressure, ``(n,)``, positive in compression."""
         return self._columns["CPRESS"]
 
     @property
     def shear(self) -> np.ndarray:
-        """Shear traction on the secondary along the two output directions, ``(n, 2)`` [Pa]; ``(n, 1)`` in the plane."""
+        """Shear traction on the secondary along the two output directions, ``(n, 2)``; ``(n, 1)`` in the plane."""
         return self._vectors("CSHEAR1", "CSHEAR2")[:, : self._dim - 1]
 
     @property
     def gap(self) -> np.ndarray:
-        """Gap, ``(n,)`` [length], positive if open."""
+        """Gap, ``(n,)``, positive if open."""
         return self._columns["COPEN"]
 
     @property
     def slip(self) -> np.ndarray:
-        """Accumulated slip along the two output directions, ``(n, 2)`` [length]; ``(n, 1)`` in the plane."""
+        """Accumulated slip along the two output directions, ``(n, 2)``; ``(n, 1)`` in the plane."""
         return self._vectors("CSLIP1", "CSLIP2")[:, : self._dim - 1]
 
     @property
@@ -162,17 +171,17 @@ class Contact:
 
     @property
     def force(self) -> np.ndarray:
-        """Force of pressure, ``(n,)`` [N]."""
+        """Force of pressure, ``(n,)``."""
         return self._columns["CNORMF"]
 
     @property
     def dissipated(self) -> np.ndarray:
-        """Energy dissipated by friction per area, ``(n,)`` [J/m²]."""
+        """Energy dissipated by friction per area, ``(n,)``."""
         return self._columns["CDISS"]
 
     @property
     def wear(self) -> np.ndarray:
-        """Depth worn off, ``(n,)`` [length]."""
+        """Depth worn off, ``(n,)``."""
         return self._columns["CWEAR"]
 
     @property
@@ -291,7 +300,7 @@ class Simulation:
         `callback` is called after every increment; if it returns ``False`` the run stops there. Results are written into `directory` if there is
         one, as by the command ``stickslip run``. `progress` shows a bar: that of `tqdm` or `rich` if one of them is there.
 
-        What happens is told to the logger ``stickslip`` of `logging`: increments as ``DEBUG``, cut-backs and notes as ``INFO``, what is probably wrong
+        Messages go to the logger ``stickslip`` of `logging`: increments as ``DEBUG``, cut-backs and notes as ``INFO``, what is probably wrong
         as ``WARNING``.
 
         Raises
@@ -307,7 +316,7 @@ class Simulation:
             for step in self:
                 if bar:
                     bar.show((step.time - begin) / (end - begin), f"{step.name}, {step.stick} stick, {step.slip} slip, {step.open} open")
-                if callback is not None and callback(step) is False:
+                if callback is not None and ends(callback(step)):
                     break
         finally:
             if bar:
@@ -324,7 +333,8 @@ class Simulation:
         self._core.save(folder)
         return folder
 
-    def plot(self, field: Optional[str] = None, ending: str = "png", **options: Any) -> Picture:
+    @_show.with_options
+    def plot(self, field: Optional[str] = None, ending: Literal["png", "svg"] = "png", **options: Unpack[PlotOptions]) -> Picture:
         """The picture that ``stickslip plot`` draws of the last increment, which Jupyter shows.
 
         Parameters
@@ -352,7 +362,7 @@ class Simulation:
 
     @property
     def time(self) -> float:
-        """Time of the last increment [s]."""
+        """Time of the last increment."""
         return self._core.time
 
     @property
@@ -362,27 +372,27 @@ class Simulation:
 
     @property
     def points(self) -> np.ndarray:
-        """Coordinates of all bodies, ``(n, 3)`` [length]."""
+        """Coordinates of all bodies, ``(n, 3)``."""
         return np.asarray(self._core.points)
 
     @property
     def displacement(self) -> np.ndarray:
-        """Displacements, ``(n, dim)`` [length]."""
+        """Displacements, ``(n, dim)``."""
         return np.asarray(self._core.displacement)
 
     @property
     def velocity(self) -> np.ndarray:
-        """Velocities, ``(n, dim)`` [length/time]; zero in quasi-static steps."""
+        """Velocities, ``(n, dim)``; zero in quasi-static steps."""
         return np.asarray(self._core.velocity)
 
     @property
     def acceleration(self) -> np.ndarray:
-        """Accelerations, ``(n, dim)`` [length/time²]; zero in quasi-static steps."""
+        """Accelerations, ``(n, dim)``; zero in quasi-static steps."""
         return np.asarray(self._core.acceleration)
 
     @property
     def forces(self) -> np.ndarray:
-        """Internal minus external forces, ``(n, dim)`` [force]: reactions where points are supported."""
+        """Internal minus external forces, ``(n, dim)``: reactions where points are supported."""
         return np.asarray(self._core.forces)
 
     @property
@@ -403,8 +413,7 @@ class Simulation:
     @property
     def problem(self) -> dict[str, Any]:
         """The tables of the problem, as they are run."""
-        tables: dict[str, Any] = json.loads(self._problem.tables())
-        return tables
+        return self._problem.tables()
 
     def _body(self, interface: str) -> Optional[str]:
         return body_of(self.problem, interface)
@@ -424,9 +433,9 @@ class Simulation:
         return Table({name: table[:, i] for i, name in enumerate(names)})
 
     @property
-    def summary(self) -> dict[str, Any]:
+    def summary(self) -> Summary:
         """What ``summary.json`` holds: outcome, counts, times, energies, quality, findings."""
-        summary: dict[str, Any] = json.loads(self._core.summary)
+        summary: Summary = json.loads(self._core.summary)
         return summary
 
     @property
@@ -478,17 +487,22 @@ class Simulation:
         return _show.table("simulation", self._told())
 
 
-def told(summary: dict[str, Any]) -> list[tuple[str, Any]]:
+def ends(answer: Any) -> bool:
+    """Whether a callback has said that it is enough: a comparison of numbers of NumPy is no ``False`` of Python."""
+    return isinstance(answer, (bool, np.bool_)) and not answer
+
+
+def told(summary: Summary) -> list[tuple[str, Any]]:
     """What a summary says of the physics and of how good it is, a line an interface."""
     rows: list[tuple[str, Any]] = []
     for interface in summary.get("interfaces", []):
         tied = interface.get("tied", False)
-        points, peak = interface.get("points", {}), interface.get("peak-traction" if tied else "peak-pressure", {})
-        counts = "" if tied else f"; {points.get('stick', 0)} stick, {points.get('slip', 0)} slip, {points.get('open', 0)} open"
+        points, peak = interface.get("points"), interface.get("peak-traction") if tied else interface.get("peak-pressure")
+        counts = "" if tied or points is None else f"; {points['stick']} stick, {points['slip']} slip, {points['open']} open"
         rows.append(
             (
                 f"{'tie' if tied else 'interface'} {interface.get('name')}",
-                f"peak {'traction' if tied else 'pressure'} {peak.get('value', 0.0):.4g} at time {peak.get('time', 0.0):g}; "
+                f"peak {'traction' if tied else 'pressure'} {peak['value'] if peak else 0.0:.4g} at time {peak['time'] if peak else 0.0:g}; "
                 f"normal force {_size(interface.get('normal-force'))}, shear force {_size(interface.get('shear-force'))}{counts}",
             )
         )

@@ -111,6 +111,20 @@ pub enum MeshSource {
     Generate(Generator),
     /// From a file of Gmsh: `.msh`, format 2.2 or 4.1, ASCII or binary.
     Gmsh(GmshFile),
+    /// From arrays, in Python: a `stickslip.Mesh`.
+    Mesh(GivenMesh),
+}
+
+/// A mesh that a program has in memory. Its sets are those of the body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct GivenMesh {
+    /// The name by which the program gives it: `Problem.from_toml(FILE, meshes={"NAME": mesh})`.
+    pub name: String,
+    /// The cell set that is this body; all cells if not given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub group: Option<String>,
 }
 
 /// A mesh file of Gmsh. Its physical groups become sets.

@@ -66,7 +66,7 @@ impl Document {
         let folder = self.folder();
         let meshes = problem.body.values().filter_map(|body| match &body.mesh {
             MeshSource::Gmsh(mesh) => Some(&mesh.file),
-            MeshSource::Generate(_) => None,
+            MeshSource::Generate(_) | MeshSource::Mesh(_) => None,
         });
         let results = problem.initial.values().filter_map(|i| i.result.as_ref());
         let roughness = problem

@@ -63,6 +63,7 @@ impl Default for Solver {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+#[cfg_attr(feature = "schema", schemars(rename = "LinearSolver"))]
 pub struct Linear {
     /// Largest residual of a linear system, as a fraction of its right-hand side.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1)))]

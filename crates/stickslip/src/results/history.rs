@@ -119,6 +119,9 @@ pub(crate) fn row(
         row.push(name, value);
     }
     push_probes(&mut row, view, around);
+    for support in &view.model.actions.supports {
+        push_motion(&mut row, view, support);
+    }
     row
 }
 
@@ -150,6 +153,33 @@ fn push_reaction(row: &mut Row, name: &str, view: &View, support: &Support) {
     }
     for (c, s) in sum.iter().enumerate().take(dofs.dim) {
         row.push(format!("{name}.RF{}", c + 1), *s);
+    }
+}
+
+/// Mean displacement of the points of a support, and their rotation, in each direction that it prescribes, whether it acts at the time or not. A column that a
+/// probe, a reference point or a body of the same name has stays as it is.
+fn push_motion(row: &mut Row, view: &View, support: &Support) {
+    let (dofs, links) = (view.model.dofs, &view.model.links);
+    let mut means = [(0.0, 0.0); 6];
+    for e in &support.entries {
+        let (point, component) = dofs.locate(e.dof);
+        let hidden = links.of_hidden(point).filter(|_| links.turns(point));
+        let (direction, length) = match hidden.map(|link| links.all()[link].length) {
+            // In the plane the only rotation is about z.
+            Some(length) if dofs.dim == 2 => (5, length),
+            Some(length) => (3 + component, length),
+            None => (component, 1.0),
+        };
+        let (sum, count) = &mut means[direction];
+        *sum += view.frame.state.u[e.dof] / length;
+        *count += 1.0;
+    }
+    let names = ["U1", "U2", "U3", "UR1", "UR2", "UR3"];
+    for (name, (sum, count)) in names.into_iter().zip(means) {
+        let name = format!("{}.{name}", support.name);
+        if count > 0.0 && !row.names.contains(&name) {
+            row.push(name, sum / count);
+        }
     }
 }
 

@@ -53,6 +53,7 @@ mod spinning;
 mod starts;
 mod stops;
 mod suggestions;
+mod supports;
 mod surfaces;
 mod threads;
 mod turning;

@@ -125,7 +125,7 @@ const WRONG: &[(&str, &str, &[&str])] = &[
     (
         "gmsh.file = \"block.msh\"\n",
         "",
-        &["7:7 one of these keys is missing: generate, gmsh"],
+        &["7:7 one of these keys is missing: generate, gmsh, mesh"],
     ),
     (
         "[[step]]\nname = \"press\"\ninterfaces = [\"base\"]\n",

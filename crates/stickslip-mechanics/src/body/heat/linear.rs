@@ -7,6 +7,7 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, PartialEq, serde::Serialize, serde::Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[cfg_attr(feature = "schema", schemars(rename = "LinearTemperature"))]
 pub struct Linear {
     /// The temperature `[K]` at `point`.
     pub value: f64,

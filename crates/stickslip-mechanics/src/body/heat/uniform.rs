@@ -6,6 +6,7 @@ use crate::registry::Samples;
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[cfg_attr(feature = "schema", schemars(rename = "UniformTemperature"))]
 pub struct Uniform {
     /// The temperature `[K]`, in any unit whose steps are those of the coefficients of expansion.
     pub value: f64,

@@ -15,7 +15,7 @@ use crate::io::gmsh;
 use crate::math::{add, scale};
 use crate::mesh::{Block, CellRef, Mesh, check, combine, cut};
 
-/// Meshes from memory, by the name under which a problem asks for them as a file: `gmsh = { file = "NAME" }`.
+/// Meshes from memory, by the name under which a problem asks for them, `mesh = { name = "NAME" }`, or that of a file that they stand for.
 pub type Meshes = BTreeMap<PathBuf, Arc<Mesh>>;
 
 /// All bodies in one mesh.
@@ -146,20 +146,43 @@ fn source(
             let Some(group) = &file.group else {
                 return Ok(Mesh::clone(mesh));
             };
-            let Some(cells) = mesh.cell_sets.get(group) else {
-                let known: Vec<&str> = mesh.cell_sets.keys().map(String::as_str).collect();
-                return Err(problem_error(vec![
-                    Diagnostic::new(
-                        format!("body.{name}.gmsh.group"),
-                        format!(
-                            "{} has no physical group of cells `{group}`",
-                            path.display()
-                        ),
-                    )
-                    .help(format!("its groups of cells are: {}", known.join(", "))),
-                ]));
+            part(mesh, group).map_err(|help| {
+                let key = format!("body.{name}.gmsh.group");
+                let file = path.display();
+                let what = format!("{file} has no physical group of cells `{group}`");
+                problem_error(vec![Diagnostic::new(key, what).help(help)])
+            })
+        }
+        MeshSource::Mesh(wanted) => {
+            let Some(mesh) = given.get(Path::new(&wanted.name)) else {
+                let key = format!("body.{name}.mesh.name");
+                let what = format!("no mesh `{}` was given", wanted.name);
+                let known: Vec<_> = given.keys().map(|k| k.display().to_string()).collect();
+                let help = match known.is_empty() {
+                    true => "Python gives meshes: `Problem.from_toml(FILE, meshes={\"NAME\": mesh})`; a mesh in a file is `gmsh.file`".to_string(),
+                    false => format!("these were given: {}", known.join(", ")),
+                };
+                return Err(problem_error(vec![Diagnostic::new(key, what).help(help)]));
             };
-            Ok(combine::extract(mesh, cells))
+            let Some(group) = &wanted.group else {
+                return Ok(Mesh::clone(mesh));
+            };
+            part(mesh, group).map_err(|help| {
+                let key = format!("body.{name}.mesh.group");
+                let what = format!("mesh `{}` has no cell set `{group}`", wanted.name);
+                problem_error(vec![Diagnostic::new(key, what).help(help)])
+            })
+        }
+    }
+}
+
+/// The cells of a set as a mesh of their own; the names of those that there are if it is none of them.
+fn part(mesh: &Mesh, group: &str) -> Result<Mesh, String> {
+    match mesh.cell_sets.get(group) {
+        Some(cells) => Ok(combine::extract(mesh, cells)),
+        None => {
+            let known: Vec<&str> = mesh.cell_sets.keys().map(String::as_str).collect();
+            Err(format!("its groups of cells are: {}", known.join(", ")))
         }
     }
 }
