@@ -1,6 +1,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use stickslip::number::figure;
 use stickslip::results::compare::{Differences, compare, differences};
 
 use crate::failure::{CHECK, Failure, Outcome};
@@ -63,10 +64,11 @@ fn judge(found: &Differences, limit: Option<f64>) -> Outcome {
     };
     let beyond = found.quantities.iter().filter(|d| d.relative() > limit);
     let beyond = beyond.count();
+    let limit = figure(limit);
     print::out(&match (beyond, found.uncompared.len()) {
-        (0, 0) => format!("all differ by at most {limit:e}\n"),
-        (0, n) => format!("those compared differ by at most {limit:e}, but {n} could not be\n"),
-        (n, _) => format!("{n} differ by more than {limit:e}\n"),
+        (0, 0) => format!("all differ by at most {limit}\n"),
+        (0, n) => format!("those compared differ by at most {limit}, but {n} could not be\n"),
+        (n, _) => format!("{n} differ by more than {limit}\n"),
     })?;
     Ok(code(beyond == 0 && found.uncompared.is_empty()))
 }
