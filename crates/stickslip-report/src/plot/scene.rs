@@ -357,7 +357,7 @@ impl<'a> Scene<'a> {
             (facts.peak, extremes[1], facts.place) = (Some(most), most, sheet.place(point, 1.0));
         }
         // Rounding is no place.
-        let small = 1e-6 * skin.size();
+        let small = 1e-4 * skin.size();
         facts.place = facts.place.map(|x| if x.abs() < small { 0.0 } else { x });
         if !colours.status {
             facts.words = facts.said(self.given, skin.dim);

@@ -157,7 +157,8 @@ impl Panel<'_> {
             colours: &colours,
             values: &values,
             words: &[axis::between([low, high])],
-            statuses: None,
+            // Those of this interface alone.
+            statuses: Some([0.0, 1.0, 2.0].map(|s| values.iter().filter(|v| **v == s).count())),
         };
         let size = [self.bar - 1.2 * em, area[1].max(12.0 * em)];
         legend::bar(&shown, place, size, em, canvas);
