@@ -14,8 +14,8 @@ MU = "interface.press.friction.coulomb.mu"
 
 def test_tables_and_values_are_read_by_their_paths(problem):
     assert problem["interface"]["press"]["friction"] == {"coulomb": {"mu": 0.3}}
-    assert problem[MU] == 0.3 and problem["step.1.increments.fixed"] == 18
-    assert MU in problem and "load.push" not in problem and "step.2" not in problem
+    assert problem[MU] == 0.3 and problem["step.2.increments.fixed"] == 18
+    assert MU in problem and "load.push" not in problem and "step.3" not in problem and "step.0" not in problem
     assert {"body", "interface", "step", "support"} <= set(problem)
     # What was not given has its default.
     assert problem["solver.tolerance"] == stickslip.schema()["properties"]["solver"]["default"]["tolerance"]
@@ -43,10 +43,10 @@ def test_what_is_changed_is_what_runs(problem):
 def test_steps_and_tables_are_put_in_and_taken_out(problem):
     problem["load.push"] = {"set": "block.right", "traction": {"value": np.array([-1e6, 0.0])}}
     problem["step"].append({"name": "more", "increments": {"fixed": 1}})
-    problem["step.0.duration"] = 2
+    problem["step.1.duration"] = 2
     assert problem.build().run().time == 4.0
     assert "load.push" in problem
-    del problem["load.push"], problem["step.2"]
+    del problem["load.push"], problem["step.more"]
     assert "push" not in problem.to_toml() and len(problem["step"]) == 2
     problem["title"] = "edited"
     assert "edited" in repr(problem)

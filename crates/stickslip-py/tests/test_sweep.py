@@ -63,7 +63,7 @@ def test_values_may_be_arrays_ranges_and_series(problem):
     pandas = pytest.importorskip("pandas")
     cases = [np.linspace(0.1, 0.2, 2), (0.1 * i for i in (1, 2)), pandas.Series([0.1, 0.2])]
     for values in cases:
-        rows = stickslip.sweep(problem, {MU: values, "step.1.increments.fixed": range(2, 3)})
+        rows = stickslip.sweep(problem, {MU: values, "step.2.increments.fixed": range(2, 3)})
         assert [row[MU] for row in rows] == [0.1, 0.2] and all(row["outcome"] == "done" for row in rows)
 
 
@@ -76,7 +76,7 @@ def sticks(row, simulation):
 
 
 def test_processes_give_the_rows_of_one(problem, monkeypatch):
-    problem["step.1.increments.fixed"] = 2
+    problem["step.2.increments.fixed"] = 2
     axes = {MU: [0.1, 0.2, 0.3]}
     alone = stickslip.sweep(problem, axes, callback=peak)
     assert stickslip.sweep(problem, axes, callback=peak, processes=2) == alone
@@ -94,7 +94,7 @@ def test_processes_give_the_rows_of_one(problem, monkeypatch):
 
 @pytest.mark.parametrize("processes", [None, 2])
 def test_a_sweep_stops_early(problem, processes):
-    problem["step.1.increments.fixed"] = 2
+    problem["step.2.increments.fixed"] = 2
     axes = {MU: [0.1, 0.2, 0.3, 0.4, 0.5]}
     whole = stickslip.sweep(problem, axes)
     at = whole[1]["press.CFS1"]

@@ -60,7 +60,10 @@ class Problem:
         return self._tables
 
     def __getitem__(self, key: str) -> Any:
-        """A table or a value by its path: ``problem["support"]``, ``problem["step.0.duration"]``."""
+        """A table or a value by its path: ``problem["support"]``, ``problem["step.1.duration"]``, ``problem["step.press.duration"]``.
+
+        Entries of lists are counted from 1 in paths, or called by their name.
+        """
         at: Any = self.tables
         for name in self._path(key):
             at = _entry(at, name, key)
@@ -74,7 +77,7 @@ class Problem:
             at = at.setdefault(name, {}) if isinstance(at, dict) else _entry(at, name, key)
         if isinstance(at, list):
             _entry(at, last, key)
-            at[int(last)] = value
+            at[_position(at, last)] = value
         elif isinstance(at, dict):
             at[last] = value
         else:
@@ -87,7 +90,7 @@ class Problem:
         for name in path:
             at = _entry(at, name, key)
         _entry(at, last, key)
-        del at[int(last) if isinstance(at, list) else last]
+        del at[_position(at, last) if isinstance(at, list) else last]
 
     def __contains__(self, key: object) -> bool:
         try:
@@ -288,12 +291,20 @@ def _differ(tables: Any, seen: Any) -> bool:
         return True
 
 
+def _position(entries: list[Any], name: str) -> int:
+    """The index of an entry of a list by its number, counted from 1, or by its name."""
+    if name.isdigit() and 0 < int(name) <= len(entries):
+        return int(name) - 1
+    named = (i for i, entry in enumerate(entries) if isinstance(entry, dict) and entry.get("name") == name)
+    return next(named, len(entries))
+
+
 def _entry(at: Any, name: str, key: str) -> Any:
-    """What a table or list has under a name."""
     try:
-        return at[int(name) if isinstance(at, list) else name]
-    except (KeyError, IndexError, TypeError, ValueError):
-        names = list(at) if isinstance(at, dict) else [str(i) for i in range(len(at))] if isinstance(at, list) else []
+        return at[_position(at, name) if isinstance(at, list) else name]
+    except (KeyError, IndexError, TypeError):
+        numbers = [str(i + 1) for i in range(len(at))] if isinstance(at, list) else []
+        names = list(at) if isinstance(at, dict) else numbers
         close = difflib.get_close_matches(name, names, n=3, cutoff=0.5) or names[:8]
         there = f"; there is: {', '.join(close)}" if close else ""
         raise KeyError(f"{key}: there is no `{name}`{there}") from None

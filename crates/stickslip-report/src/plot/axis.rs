@@ -1,5 +1,7 @@
 //! Ticks of axes at round numbers, and numbers as text.
 
+use stickslip::number;
+
 /// At most about `count` round numbers between `low` and `high`.
 pub fn ticks(low: f64, high: f64, count: usize) -> Vec<f64> {
     let width = high - low;
@@ -35,7 +37,7 @@ pub fn number(value: f64, digits: usize) -> String {
         let after = (digits as i32 - 1 - size.log10().floor() as i32).clamp(0, 12) as usize;
         trimmed(&format!("{value:.after$}"))
     } else {
-        engineering(value, digits)
+        number::digits(value, digits)
     };
     text.replace('-', "−")
 }
@@ -43,20 +45,6 @@ pub fn number(value: f64, digits: usize) -> String {
 /// The least and the largest value in words.
 pub fn between(values: [f64; 2]) -> String {
     values.map(|x| number(x, 3)).join(" … ")
-}
-
-/// A number with an exponent that is a multiple of three: `123.5e3`.
-fn engineering(value: f64, digits: usize) -> String {
-    let rounded = format!("{value:.*e}", digits - 1);
-    let Some((mantissa, exponent)) = rounded.split_once('e') else {
-        return rounded;
-    };
-    let exponent: i32 = exponent.parse().unwrap_or(0);
-    let before = exponent.rem_euclid(3);
-    let after = (digits as i32 - 1 - before).max(0) as usize;
-    let mantissa = mantissa.parse().unwrap_or(value) * 10f64.powi(before);
-    let mantissa = trimmed(&format!("{mantissa:.after$}"));
-    format!("{mantissa}e{}", exponent - before)
 }
 
 /// Whether a number has no digits left of the point beyond those that count.
