@@ -2,8 +2,6 @@
 
 use std::borrow::Borrow;
 
-use crate::tolerance::SAME;
-
 /// A number with four digits, see [`digits`].
 pub fn figure(x: impl Borrow<f64>) -> String {
     digits(x, 4)
@@ -50,15 +48,6 @@ pub fn digits(x: impl Borrow<f64>, count: usize) -> String {
     }
 }
 
-/// A vector, in which components that are rounding beside `scale` are zero.
-pub fn vector(components: &[f64], scale: f64) -> String {
-    let each = components.iter().map(|c| match c.abs() <= SAME * scale {
-        true => "0".to_string(),
-        false => figure(*c),
-    });
-    format!("({})", each.collect::<Vec<_>>().join(", "))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -88,7 +77,6 @@ mod tests {
             assert_eq!(figure(x), text);
         }
         assert_eq!(digits(1.0 / 3.0, 6), "0.333333");
-        assert_eq!(vector(&[1e-12, 2.0], 2.0), "(0, 2)");
     }
 
     #[test]

@@ -6,11 +6,11 @@ use stickslip::assess::doctor::Finding;
 use stickslip::assess::{Figure, Gate, InterfaceSummary, Peak};
 use stickslip::math::norm;
 use stickslip::model::GateMode;
-use stickslip::number::{digits, figure, vector};
+use stickslip::number::{digits, figure};
 use stickslip::results::{Analysis, Summary};
 use stickslip::tolerance::SAME;
 
-use crate::style::{self, Look, paint, sentence};
+use crate::style::{self, Look, paint, sentence, vector};
 use crate::voice::say;
 use stickslip::mesh::geometry;
 

@@ -143,12 +143,13 @@ impl Progress {
         self.line("  mode      frequency         growth  damping ratio   residual");
         for (k, mode) in outcome.modes.iter().enumerate() {
             self.line(&format!(
-                "  {:>4} {:>14.6e} {:>14.6e} {:>14.6e} {:>10.1e}",
+                "  {:>4} {:>14} {:>14} {:>14} {:>10}{}",
                 k + 1,
-                mode.frequency,
-                mode.growth,
-                mode.damping_ratio,
-                mode.residual
+                digits(mode.frequency, 5),
+                figure(mode.growth),
+                figure(mode.damping_ratio),
+                digits(mode.residual, 2),
+                if mode.is_unstable() { "  unstable" } else { "" }
             ));
         }
     }

@@ -1,5 +1,8 @@
 //! How words on standard error look: colours where somebody sees them, numbers with the digits that say something, lines that fit.
 
+use stickslip::number::figure;
+use stickslip::tolerance::SAME;
+
 use std::io::IsTerminal;
 use std::sync::LazyLock;
 
@@ -82,6 +85,15 @@ fn is_look(code: &str) -> bool {
     matches!(code.parse::<u8>(), Ok(0 | 1 | 4 | 30..=37 | 39 | 90..=97))
 }
 
+/// A vector, in which components that are rounding beside `scale` are zero.
+pub fn vector(components: &[f64], scale: f64) -> String {
+    let each = components.iter().map(|c| match c.abs() <= SAME * scale {
+        true => "0".to_string(),
+        false => figure(*c),
+    });
+    format!("({})", each.collect::<Vec<_>>().join(", "))
+}
+
 /// A name in so many columns.
 pub fn short(name: &str, most: usize) -> String {
     match name.chars().count() > most {
@@ -144,6 +156,11 @@ mod tests {
             assert_eq!(all, text);
         }
         assert_eq!(parts(text, false), [(false, text)]);
+    }
+
+    #[test]
+    fn components_that_are_rounding_are_zero() {
+        assert_eq!(vector(&[1e-12, 2.0], 2.0), "(0, 2)");
     }
 
     #[test]

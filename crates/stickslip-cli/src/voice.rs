@@ -376,7 +376,7 @@ mod tests {
         doing.note(&increment, at(50));
         assert_eq!(
             doing.sentence(begun, at(90)),
-            "  ... push 2.50000e-1 to 5.00000e-1, attempt 2, 40 s in it; 90 s in all"
+            "  ... push 0.25 to 0.5, attempt 2, 40 s in it; 90 s in all"
         );
         let progress = Progress {
             iteration: 7,
@@ -390,7 +390,7 @@ mod tests {
         doing.note(&Work::Iteration(&progress), at(95));
         let said = doing.sentence(begun, at(100));
         assert!(
-            said.contains("50 s in it: iteration 1.7 done (friction problem), residual 3.2e-4"),
+            said.contains("50 s in it: iteration 1.7 done (friction problem), residual 320e-6"),
             "{said}"
         );
         doing.note(&Work::Recovering(16), at(101));

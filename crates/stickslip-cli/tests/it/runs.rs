@@ -364,7 +364,7 @@ fn explain_repeats_what_the_gate_said() {
     for part in [
         "exit code 2",
         "error: quality, penetration-to-approach of interface base",
-        "above its limit 1.0e-2",
+        "above its limit 0.01",
         "augmented-lagrangian",
     ] {
         assert!(said.contains(part), "`{part}` is missing in:\n{said}");

@@ -183,7 +183,7 @@ mod tests {
         assert!((e.smallest_eigenvalue.expect("given") + 0.5).abs() < 1e-14);
         assert!(
             e.to_string()
-                .contains("smallest eigenvalue of the stiffness is -5.000000e-1")
+                .contains("smallest eigenvalue of the stiffness is -0.5")
         );
 
         assert!(

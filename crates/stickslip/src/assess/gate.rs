@@ -173,12 +173,12 @@ const DIGITS: [usize; 2] = [2, 1];
 /// Two numbers with as many digits as it takes to tell one from the other.
 pub fn told_apart(value: f64, limit: f64) -> [String; 2] {
     let [few, fewer] = DIGITS;
-    let said = |x: f64, digits: usize| format!("{x:.digits$e}");
-    let usual = |digits: usize| said(value, digits) == said(limit, digits);
-    let digits = (few..=17).find(|&digits| !usual(digits)).unwrap_or(17);
-    match digits == few {
+    let said = |x: f64, places: usize| digits(x, places + 1);
+    let usual = |places: usize| said(value, places) == said(limit, places);
+    let places = (few..=17).find(|&places| !usual(places)).unwrap_or(17);
+    match places == few {
         true => [said(value, few), said(limit, fewer)],
-        false => [said(value, digits), said(limit, digits)],
+        false => [said(value, places), said(limit, places)],
     }
 }
 
@@ -189,10 +189,10 @@ mod tests {
 
     #[test]
     fn a_value_just_above_its_limit_is_told_from_it() {
-        assert_eq!(told_apart(0.4, 1e-4), ["4.00e-1", "1.0e-4"]);
-        assert_eq!(told_apart(0.151, 0.15), ["1.51e-1", "1.5e-1"]);
-        assert_eq!(told_apart(0.150004, 0.15), ["1.50004e-1", "1.50000e-1"]);
-        assert_eq!(told_apart(f64::INFINITY, 0.15), ["inf", "1.5e-1"]);
+        assert_eq!(told_apart(0.4, 1e-4), ["0.4", "100e-6"]);
+        assert_eq!(told_apart(0.151, 0.15), ["0.151", "0.15"]);
+        assert_eq!(told_apart(0.150004, 0.15), ["0.150004", "0.15"]);
+        assert_eq!(told_apart(f64::INFINITY, 0.15), ["inf", "0.15"]);
     }
 
     #[test]

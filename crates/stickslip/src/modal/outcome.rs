@@ -1,5 +1,6 @@
 //! What comes of a step without increments, as plain data.
 
+use super::quadratic::UNSTABLE_GROWTH;
 use serde::Serialize;
 
 use crate::io::npy::Numbers;
@@ -110,6 +111,13 @@ pub struct Mode {
     /// Displacements by dof, real and imaginary part; the latter empty in a real mode.
     #[serde(skip)]
     pub shape: [Vec<f64>; 2],
+}
+
+impl Mode {
+    /// Whether it grows, by more than rounding.
+    pub fn is_unstable(&self) -> bool {
+        -self.damping_ratio > UNSTABLE_GROWTH
+    }
 }
 
 /// Frequencies and growth over friction, speed or load relative to that of the step.

@@ -52,7 +52,9 @@ fn end(text: &str, method: &str) -> (Vec<f64>, Statistics) {
     simulation.run(&mut []).unwrap_or_else(|e| panic!("{e}"));
     // A note on the ledger is none on the way to solve.
     let notes = simulation.summary.notes.iter();
-    let others = notes.filter(|n| !n.starts_with("the ledger") && !n.starts_with("friction took"));
+    let others = notes.filter(|n| {
+        !n.starts_with("the error of the energy balance") && !n.starts_with("friction took")
+    });
     let others: Vec<&String> = others.collect();
     assert!(others.is_empty(), "{others:?}");
     let solver = simulation.summary.cost.solver;

@@ -70,7 +70,7 @@ fn snapped_points_lie_on_the_primary() {
     near(simulation.summary.last["joint.CFN2"], 5.0, 2e-2);
     let notes = simulation.summary.notes.join("\n");
     assert!(
-        notes.contains("7 points of the mesh moved onto the primary, by 5.000e-3"),
+        notes.contains("7 points of the mesh moved onto the primary, by 0.005"),
         "{notes}"
     );
     let mesh = &simulation.model.mesh;

@@ -3,6 +3,7 @@
 use super::place::{At, Found};
 use crate::friction::{FrictionProblem, Solution, Tried, natural_map};
 use crate::math::vector;
+use crate::number::digits;
 use crate::system::{Culprit, Otherwise, StepFailure};
 
 /// Error to which friction problems are solved. It is the default of `solver.tolerance`.
@@ -114,13 +115,14 @@ impl Account {
         };
         match &self.end {
             End::Unsolved(tried, parts) => {
-                let each = tried.iter().map(|t| format!("{} {:.1e}", t.solver, t.error));
+                let each = tried.iter().map(|t| format!("{} {}", t.solver, digits(t.error, 2)));
                 Otherwise {
                     message: format!(
-                        "as a friction problem of {points} points{several} it is not solved either; errors where {FRICTION_ERROR:.0e} is wanted: {}",
+                        "as a friction problem of {points} points{several} it is not solved either; errors where {} is wanted: {}",
+                        digits(FRICTION_ERROR, 1),
                         each.collect::<Vec<_>>().join(", ")
                     ),
-                    culprits: named(parts, &|part| format!("{part:.1e} of the friction problem's error")),
+                    culprits: named(parts, &|part| format!("{} of the friction problem's error", digits(part, 2))),
                     help: "`run --dump-failures DIR` writes the friction problem, and `stickslip friction` solves it alone".into(),
                 }
             }
@@ -129,15 +131,16 @@ impl Account {
                 // Bodies go on moving if the last step is more than half of the first.
                 let moving = self.steps.filter(|[first, last]| *last > 0.5 * *first);
                 let moves = moving.map_or(String::new(), |[first, last]| {
-                    format!("; from one to the next the bodies still move, by {last:.1e} after {first:.1e} at first: there may be no equilibrium")
+                    format!("; from one to the next the bodies still move, by {} after {} at first: there may be no equilibrium", digits(last, 2), digits(first, 2))
                 });
                 Otherwise {
                     message: format!(
-                        "as {} friction problems one after the other, of {points} points and all solved, it does not settle: forces still change by {change:.1e} of the largest{moves}",
-                        self.count
+                        "as {} friction problems one after the other, of {points} points and all solved, it does not settle: forces still change by {} of the largest{moves}",
+                        self.count,
+                        digits(change, 2)
                     ),
                     culprits: named(changes, &|change| {
-                        format!("its force changes by {change:.1e} of the largest between friction problems")
+                        format!("its force changes by {} of the largest between friction problems", digits(change, 2))
                     }),
                     help: match moving {
                         Some(_) => "lower what drives the bodies, raise friction or support the motion, if they can slide or roll off",
@@ -201,7 +204,7 @@ mod tests {
         account.note(problem, &[(0, 4), (2, 7)], &solution);
         let said = account.otherwise(&failure(), place);
         for tried in &solution.tried {
-            let words = format!("{} {:.1e}", tried.solver, tried.error);
+            let words = format!("{} {}", tried.solver, digits(tried.error, 2));
             assert!(said.message.contains(&words), "{}", said.message);
         }
         assert_eq!(said.culprits[0].place, "interface 2, node 7 at (0, 0, 0)");
@@ -218,11 +221,7 @@ mod tests {
         account.step(1.0);
         account.step(0.1);
         let said = account.otherwise(&failure(), place);
-        assert!(
-            said.message.contains("change by 2.5e-1"),
-            "{}",
-            said.message
-        );
+        assert!(said.message.contains("change by 0.25"), "{}", said.message);
         assert!(!said.message.contains("no equilibrium"));
         assert!(said.culprits[0].place.contains("node 2"));
         account.step(0.9);

@@ -8,7 +8,7 @@ use crate::error::{Error, IoError};
 use crate::io::csv::{self, Table};
 use crate::io::{pvd, vtu};
 use crate::math::{Vec3, distance, norm, sub};
-use crate::number::figure;
+use crate::number::{digits, figure};
 use crate::tolerance::{NEGLIGIBLE, SAME};
 
 /// What two folders of results have in common, and where they are farthest apart.
@@ -384,11 +384,11 @@ impl fmt::Display for Differences {
         for d in shown {
             writeln!(
                 f,
-                "{:width$}  {:<9.2e}  {:<10.3e}  {:<11.4e}  {}",
+                "{:width$}  {:<9}  {:<10}  {:<11}  {}",
                 d.quantity,
-                d.relative(),
-                d.largest,
-                d.scale,
+                digits(d.relative(), 3),
+                figure(d.largest),
+                figure(d.scale),
                 d.place
             )?;
         }

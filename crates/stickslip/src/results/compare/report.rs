@@ -124,7 +124,7 @@ impl Comparison {
     }
 }
 
-/// Seven digits; whole numbers as such.
+/// Six digits; whole numbers as such.
 fn shown(value: f64) -> String {
     if value.fract() == 0.0 && value.abs() < 1e6 {
         format!("{value}")

@@ -24,6 +24,7 @@ const LIBRARY: &[(&str, &[&[&str]])] = &[
     (
         "stickslip_base",
         &[
+            &["number"],
             &[
                 "error",
                 "keep",
