@@ -217,11 +217,14 @@ def kind_of_option(value, repeated):
         return "tuple[int, int]"
     if "," in value:
         return "Union[str, tuple[Union[str, float], ...]]"
+    numbers = {"N": "int", "X": "float", "LENGTH": "float", "LO": "float"}
+    if value in numbers:
+        return numbers[value]
     words = value.split("|")
     if len(words) == 1 or "[" in value:
         return "str"
     kinds = [f"Literal[{', '.join(json.dumps(w) for w in words if w.islower())}]"]
-    kinds += [{"N": "int", "X": "float"}[w] for w in words if not w.islower()]
+    kinds += [numbers[w] for w in words if not w.islower()]
     return kinds[0] if len(kinds) == 1 else f"Union[{', '.join(kinds)}]"
 
 

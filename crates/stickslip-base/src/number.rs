@@ -20,29 +20,23 @@ pub fn digits(x: impl Borrow<f64>, count: usize) -> String {
     let last = count.saturating_sub(1);
     // Rounded first: 9.9999 has two places before the point with four digits.
     let text = format!("{x:.last$e}");
-    let power = text.split_once('e').and_then(|(_, e)| e.parse().ok());
-    let power: i32 = power.unwrap_or(0);
-    let [value, shift] = match (-3..=count as i32).contains(&power) {
-        true => [x, 0.0],
-        false => {
-            let shift = 3 * power.div_euclid(3);
-            // The rounded one: its digits are those that are printed.
-            let rounded: f64 = text.parse().unwrap_or(x);
-            // In two steps: 1e-308 and less have no inverse.
-            let half = 10f64.powi(-shift / 2);
-            [
-                rounded * half * 10f64.powi(-shift - -shift / 2),
-                f64::from(shift),
-            ]
-        }
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let power: i32 = exponent.parse().unwrap_or(0);
+    let shift = match (-3..=count as i32).contains(&power) {
+        true => 0,
+        false => 3 * power.div_euclid(3),
     };
-    let places = (last as i32 - (power - shift as i32)).max(0) as usize;
+    let value = match (shift, mantissa.parse::<f64>()) {
+        (0, _) | (_, Err(_)) => x,
+        (_, Ok(mantissa)) => mantissa * 10f64.powi(power - shift),
+    };
+    let places = (last as i32 - (power - shift)).max(0) as usize;
     let shown = format!("{value:.places$}");
     let trimmed = match shown.contains('.') {
         true => shown.trim_end_matches('0').trim_end_matches('.'),
         false => &shown,
     };
-    match shift == 0.0 {
+    match shift == 0 {
         true => trimmed.to_string(),
         false => format!("{trimmed}e{shift}"),
     }

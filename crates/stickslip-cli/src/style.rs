@@ -1,10 +1,10 @@
 //! How words on standard error look: colours where somebody sees them, numbers with the digits that say something, lines that fit.
 
-use stickslip::number::figure;
-use stickslip::tolerance::SAME;
-
 use std::io::IsTerminal;
 use std::sync::LazyLock;
+
+use stickslip::number::figure;
+use stickslip::tolerance::SAME;
 
 /// Columns of a line.
 pub const WIDTH: usize = 100;

@@ -155,7 +155,7 @@ fn a_report_has_all_sections_and_loads_nothing() {
         for text in [
             "<title>Two blocks</title>",
             "friction › coulomb › mu",
-            "2.1e11 <span class=\"unit\">Pa</span>",
+            "210e9 <span class=\"unit\">Pa</span>",
             "Step 1",
             "penetration to approach",
             "Content-Security-Policy",

@@ -58,7 +58,7 @@ press                 2     0.666667     2       3       2       0      3.475e6 
 press                 3            1     2       3       2       0      5.212e6        ?
 done: 3 increments, 8 iterations, 0 cut-backs
 interface base at time 1, forces on its secondary
-  peak pressure  1.394e8 at (0, 0), time 1; now 1.394e8
+  peak pressure  139.4e6 at (0, 0), time 1; now 139.4e6
   normal force   5.212e6 (0, 5.212e6)
   shear force    0
   contact area   0.04

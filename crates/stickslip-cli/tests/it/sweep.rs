@@ -500,7 +500,7 @@ complex-modes = { count = 1 }
 fn the_speed_at_which_sliding_becomes_unstable_is_found_between_runs() {
     let place = Place::new("critical");
     place.write_case(BELT);
-    let axis = "interface.rub.primary-velocity.0=0.1..0.4:4";
+    let axis = "interface.rub.primary-velocity.1=0.1..0.4:4";
     let asked = [
         "--set",
         axis,
@@ -538,8 +538,8 @@ fn a_chart_of_stability_is_drawn_of_two_axes_with_its_boundary() {
     let place = Place::new("stability");
     place.write_case(BELT);
     let axes = [
-        "load.press.nodal-force.value.1=-10,-20",
-        "interface.rub.primary-velocity.0=0.1..0.4:4",
+        "load.press.nodal-force.value.2=-10,-20",
+        "interface.rub.primary-velocity.1=0.1..0.4:4",
     ];
     let output = place.sweep(&[
         "--set",
@@ -553,7 +553,7 @@ fn a_chart_of_stability_is_drawn_of_two_axes_with_its_boundary() {
     let read = |name: &str| csv::read(&place.folder.join(name)).expect("a table");
     let critical = read("case.sweep.critical.csv");
     let speed = critical
-        .column("interface.rub.primary-velocity.0")
+        .column("interface.rub.primary-velocity.1")
         .expect("the axis");
     for (found, load) in speed.iter().zip([10.0_f64, 20.0]) {
         assert!((found - 0.1 * load.ln()).abs() < 1e-7, "{found}");
@@ -582,11 +582,11 @@ fn a_chart_of_stability_is_drawn_of_two_axes_with_its_boundary() {
     };
     plot(&[
         "--stability",
-        "primary-velocity.0,value.1",
+        "primary-velocity.1,value.1",
         "-o",
         "chart.svg",
     ]);
-    plot(&["--coupling", "primary-velocity.0", "-o", "modes.svg"]);
+    plot(&["--coupling", "primary-velocity.1", "-o", "modes.svg"]);
     for name in ["chart.svg", "modes.frequency.svg", "modes.growth.svg"] {
         let picture = std::fs::read_to_string(place.folder.join(name)).expect("a picture");
         assert!(

@@ -9,7 +9,7 @@ class PlotOptions(TypedDict, total=False):
     """Options of ``stickslip plot``."""
 
     time: Union[Literal["peak", "last", "all"], int]
-    """Which of the times at which fields were written: `peak`, at which contact presses most, `last`, a number from 1, or `all`, a file each"""
+    """Which of the times at which fields were written: `peak`, at which contact presses most, or the field that is named is largest, and of wear and dissipation the last; `last`; a number from 1; or `all`, a file each"""
 
     scale: Union[Literal["auto"], float]
     """Factor of the displacements; with `auto` 1 where a field of contact is shown, elsewhere the largest is about a twentieth of the model, or less where that would open or close gaps"""
@@ -17,8 +17,20 @@ class PlotOptions(TypedDict, total=False):
     view: str
     """From where one looks: iso, x, y, z, -x, -y, -z. Plane models are seen from z"""
 
-    body: Union[str, list[str]]
-    """Draw this body only; may be repeated"""
+    bodies: Union[str, list[str]]
+    """Draw these bodies only; may be repeated"""
+
+    range: Union[str, tuple[Union[str, float], ...]]
+    """What the ends of the colours stand for. If not given, the least and the largest value; where single points are far from the rest, 99 % of the area"""
+
+    bands: int
+    """Draw in so many colours"""
+
+    threshold: float
+    """What is below is drawn as nothing"""
+
+    apart: Union[Literal["auto"], float]
+    """How far bodies that touch are drawn apart; with `auto` as far as contact needs to be seen, where a field of contact is shown in space; 0 leaves them where they are"""
 
     zoom: Union[Literal["auto", "contact", "whole"], float]
     """Which part is seen: `contact`, the patch that presses, `whole`, or how many times nearer. With `auto` the patch, if it is small and a field of contact is shown"""
@@ -35,8 +47,11 @@ class PlotOptions(TypedDict, total=False):
     cut: str
     """Draw only cells whose middle is below this plane, to look inside; through the middle of the model if no place is given"""
 
-    mirror: str
-    """Draw the other half beyond a plane of symmetry as well; at the side of the model that is nearer to zero if no place is given"""
+    mirror: Union[str, list[str]]
+    """Draw the other half beyond a plane of symmetry as well; at the side of the model that is nearer to zero if no place is given. May be repeated: two planes make a whole of a quarter"""
+
+    loads: bool
+    """Draw supports and loads as symbols, and the outline of the bodies before any displacement. Mesh files of the problem are looked for beside the folder of the results"""
 
     units: Union[str, tuple[Union[str, float], ...]]
     """Units of length and stress for the legend: `mm,MPa`. Numbers stay as they are"""

@@ -60,7 +60,7 @@ MapOver = Literal["friction", "speed", "load"]
 #: How the mass of a cell is given to its nodes.
 MassKind = Literal["consistent", "lumped"]
 
-#: Which of two surfaces is kept from entering the other.
+#: Which of two surfaces is the secondary one.
 Roles = Literal["by-mesh", "as-named"]
 
 #: Which part of a ball is meshed.
@@ -466,7 +466,7 @@ class Damping(Table):
 
 
 class Dashpot(Table):
-    """A dashpot: in motion a force in proportion to the rate of a weighted sum of displacements acts against it. In quasi-static steps it has none.
+    """A dashpot: a viscous force on a linear combination of velocities. It does not act in quasi-static steps.
 
     Sets of n points stand for n dashpots, as with equations. What they take counts with damping in the balance of energies.
 
@@ -626,7 +626,7 @@ class Enforcement(Table):
 
 
 class Engine(Table):
-    """Who factors the interiors of condensed bodies, and keeps the factors."""
+    """The linear solver that factors condensed bodies, and keeps the factors."""
 
     @staticmethod
     def multifrontal() -> Engine:
@@ -1331,7 +1331,7 @@ class Interface(Table):
     primary
         The surface that carries the normal: `body.set`, a [set.NAME], or an obstacle.
     secondary
-        The surface whose points are kept from entering the primary: `body.set` or a [set.NAME]. Choose the softer
+        The secondary (slave) surface, whose points may not penetrate the primary: `body.set` or a [set.NAME]. Choose the softer
         of the two; the more finely meshed one takes its place unless `roles` say otherwise.
     damping
         What resists surfaces while they approach or part.
@@ -1494,9 +1494,14 @@ class Limits(Table):
         Action against reaction: sum of the forces on both sides, over the sum of the magnitudes of those on one.
     complementarity
         Complementarity: mean gap that pressure bridges, `Σ A p max(0, g - h(p)) / Σ A p height`. Not judged in an explicit step.
+    cone_violation
+        Shear beyond the limit of friction, over the largest limit of the interface.
     displacement
         Displacement of each body, over the size of the model and the way that supports and obstacles prescribe. Beyond it a body has been lost. In
         motion bodies may fly as far as they like: there it is a finding.
+    elastic_slip
+        False slip of sticking points over an increment, over the elastic approach. Not judged in motion, where a point that comes to rest
+        sticks.
     energy
         Residual of the energy balance over the energies in play (at least the work of the forces along a millionth of the model), at the end. If not given: `solver.energy-limit`. In a
         quasi-static analysis no force follows from the ledger: works and losses are off by that part. Above a thousandth it is a note.
@@ -1504,8 +1509,6 @@ class Limits(Table):
         Balance of each body: resultant force and moment of interfaces, loads, springs and supports (in motion also of inertia and damping),
         over the largest of them (in motion: the largest so far). Moments are taken with the positions of the reference, as the bodies are linear. Not judged in an
         explicit step, where accelerations are made to balance.
-    excess_shear
-        Shear beyond the limit of friction, over the largest limit of the interface.
     explicit_opening
         In explicit steps, where springs stand for rigid stops and ties by a penalty: their energy over the elastic energy of all bodies, the largest so far of both. Under the same force that is what
         they give way over what the bodies do.
@@ -1515,12 +1518,6 @@ class Limits(Table):
     explicit_wear
         Way that an increment slides, times the cycles that it stands for, over the longest up to which explicit wear is stable, `4 Δx / (π k E*)`; of interfaces with
         `wear-feedback = "explicit"`. The limit is that of a half-plane: bodies that are softer at their surface bear more.
-    false_shear
-        What the pressure of an interface with `small-sliding` has along its surfaces, which have turned while its normals stayed: beside the limit of friction, or beside itself where there is no
-        friction. It is shear that is not there.
-    false_slip
-        False slip of sticking points over an increment, over the elastic approach. Not judged in motion, where a point that comes to rest
-        sticks.
     friction_law
         Friction obeyed: by how much the shear of points that slip is not their limit or acts along their slip, and that of points that stick is above it,
         over the largest limit of the interface. Found from the tractions that are reported and from how the points have moved.
@@ -1538,6 +1535,9 @@ class Limits(Table):
     oscillation
         Oscillation index of the pressure: the part of it that goes up and down from each point of the secondary to the next, over its mean;
         1 for a checkerboard of zero and twice the mean.
+    outdated_normals
+        What the pressure of an interface with `small-sliding` has along its surfaces, which have turned while its normals stayed: beside the limit of friction, or beside itself where there is no
+        friction. It is shear that is not there.
     penetration_to_approach
         The same penetration over the elastic approach: `2 U / F` of the elastic energy of bodies and compliant interfaces and the force of
         the interface, at least the mean compression of one layer of cells. In motion the largest so far of both are compared. Not judged in an explicit step.
@@ -1564,16 +1564,16 @@ class Limits(Table):
     tie_opening
         By how much tied surfaces come apart or slide, as the root of the mean square over places all over the secondary: over the elastic approach, or the largest displacement where
         that is less. Measured from the geometry alone, as a tie holds points or means over faces. The largest so far of both are compared.
-    unseen_to_approach
+    undetected_approach
         The same depth, or the distance by which the surfaces stand apart all around a point that carries pressure, over itself plus the elastic
-        approach: the part of the approach that contact points do not see. 1 where surfaces enter each other and nothing presses them
+        approach: the part of the approach that contact points do not see. 1 where surfaces penetrate and nothing presses them
         apart. The largest so far of both are compared.
-    unseen_to_size
-        Depth by which the surfaces enter each other between contact points, beyond what the points say, over the height of the cell beneath: nodes of
+    undetected_penetration
+        Penetration between contact points, beyond what the points say, over the height of the cell beneath: nodes of
         the primary in faces of the secondary, and places all over these faces in the primary. Measured from the geometry alone.
     """
 
-    def __init__(self, *, action_reaction: float | None = None, complementarity: float | None = None, displacement: float | None = None, energy: float | None = None, equilibrium: float | None = None, excess_shear: float | None = None, explicit_opening: float | None = None, explicit_penetration: float | None = None, explicit_wear: float | None = None, false_shear: float | None = None, false_slip: float | None = None, friction_law: float | None = None, gate: GateMode | None = None, local_rotation: float | None = None, mode_residual: float | None = None, moment: float | None = None, oscillation: float | None = None, penetration_to_approach: float | None = None, penetration_to_size: float | None = None, prestress: float | None = None, rotation: float | None = None, rotation_to_approach: float | None = None, scheme_dissipation: float | None = None, strain: float | None = None, tie_opening: float | None = None, unseen_to_approach: float | None = None, unseen_to_size: float | None = None) -> None:
+    def __init__(self, *, action_reaction: float | None = None, complementarity: float | None = None, cone_violation: float | None = None, displacement: float | None = None, elastic_slip: float | None = None, energy: float | None = None, equilibrium: float | None = None, explicit_opening: float | None = None, explicit_penetration: float | None = None, explicit_wear: float | None = None, friction_law: float | None = None, gate: GateMode | None = None, local_rotation: float | None = None, mode_residual: float | None = None, moment: float | None = None, oscillation: float | None = None, outdated_normals: float | None = None, penetration_to_approach: float | None = None, penetration_to_size: float | None = None, prestress: float | None = None, rotation: float | None = None, rotation_to_approach: float | None = None, scheme_dissipation: float | None = None, strain: float | None = None, tie_opening: float | None = None, undetected_approach: float | None = None, undetected_penetration: float | None = None) -> None:
         super().__init__(locals())
 
 
@@ -2359,10 +2359,10 @@ class Solver(Table):
         Largest residual of the energy balance, as a fraction of the energies in play, that counts as good; the summary says whether it was
         kept.
     engine
-        Who factors condensed bodies, and keeps the factors.
+        The linear solver that factors condensed bodies, and keeps the factors.
     follow_loose_bodies
-        Whether bodies that supports leave free, and that loads push, are moved in quasi-static steps until they touch, and held by weak
-        springs that follow them until contact holds them and the springs carry nothing.
+        Whether unconstrained bodies under load are moved in quasi-static steps until they touch, and stabilised by weak springs until contact is
+        established and the springs carry nothing.
     largest_change
         Largest change of displacement over one increment, as a fraction of the size of the model; an increment that
         changes more is cut. No limit if not given.

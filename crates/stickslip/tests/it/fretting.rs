@@ -399,7 +399,7 @@ fn scars_beyond_first_order_and_the_limit_of_explicit_wear_are_told() {
     let limit = 4.0 * 0.1 / (std::f64::consts::PI * 0.07 * 0.5 / 0.91);
     let told = findings(&small, DoctorCause::ExplicitWear);
     assert!(
-        told[0].contains(&format!("{limit:.3e}")),
+        told[0].contains(&stickslip::number::figure(limit)),
         "{limit} {told:?}"
     );
     let large = run("80.0, primary-coefficient = 80.0");

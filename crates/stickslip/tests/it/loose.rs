@@ -540,7 +540,7 @@ load.weight = { set = "upper.top", pressure.value = 1e5 }
 step = [{ name = "press" }]
 "#;
     let (said, summary) = refused(unsupported);
-    for part in ["step press", "translation y", "load.weight", "6.000e4"] {
+    for part in ["step press", "translation y", "load.weight", "with 60000"] {
         assert!(said.contains(part), "`{part}` is missing in {said}");
     }
     assert_eq!(
@@ -710,7 +710,7 @@ step = [{ name = "press", increments.fixed = 2 }, { name = "push", increments.fi
     let (said, summary) = refused(&text);
     // 0.3 * 50 MPa are reached after three quarters of the second step.
     for part in [
-        "there is no equilibrium from 1.7500",
+        "there is no equilibrium from 1.75 on",
         "load.side",
         "friction of 0.3200",
     ] {
