@@ -151,10 +151,7 @@ fn gate(summary: &Value, findings: &[Finding]) -> String {
         let number = |key: &str| figure[key].as_f64();
         let limit = number("limit").unwrap_or(f64::INFINITY);
         let both = number("value").map(|value| told_apart(value, limit));
-        let [value, limit] = both.unwrap_or([
-            "not a number".into(),
-            format!("{limit}", limit = digits(limit, 2)),
-        ]);
+        let [value, limit] = both.unwrap_or(["not a number".into(), digits(limit, 2)]);
         let when = number("time").map_or(String::new(), |t| {
             format!(", at time {t}", t = digits(t, 6))
         });

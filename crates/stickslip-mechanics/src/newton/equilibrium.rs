@@ -204,7 +204,7 @@ fn not_converged(attempt: &Attempt, residuals: &[f64]) -> StepFailure {
     let last: Vec<String> = residuals
         .iter()
         .skip(residuals.len().saturating_sub(QUOTED))
-        .map(|r| format!("{r}", r = digits(r, 2)))
+        .map(|r| digits(r, 2))
         .collect();
     let sentence = format!(
         "no equilibrium in {} iterations; out-of-balance force relative to the forces in play: … {}",

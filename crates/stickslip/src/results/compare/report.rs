@@ -129,7 +129,7 @@ fn shown(value: f64) -> String {
     if value.fract() == 0.0 && value.abs() < 1e6 {
         format!("{value}")
     } else {
-        format!("{value}", value = digits(value, 6))
+        digits(value, 6)
     }
 }
 
