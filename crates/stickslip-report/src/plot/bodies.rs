@@ -203,7 +203,7 @@ fn one_side(known: &Known, wanted: &Picture, shown: &mut Shown) {
             .collect();
         shown.words = Some(format!("only {}", kept.join(", ")));
         shown.notes.push(format!(
-            "contact is hidden between the bodies: only {} is shown, from the side of the contact (--bodies and --view choose otherwise)",
+            "the contact surface is hidden: showing body {} only, from the side of the contact (--bodies and --view choose otherwise)",
             kept.join(", ")
         ));
     }

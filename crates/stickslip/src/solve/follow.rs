@@ -323,7 +323,7 @@ pub fn restart_from_rigid_motion(
         names.push(format!("{} by {way}", free.name(model), way = figure(way)));
     }
     solver.log.notes.push(format!(
-        "moved without strain to where contact holds them: {}",
+        "rigid-body motion to where contact is established: {}",
         names.join(", ")
     ));
     set_displacements(solver, model, frame, contact, u);
