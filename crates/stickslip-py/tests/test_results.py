@@ -45,7 +45,7 @@ def test_pictures_are_those_of_the_program(done, tmp_path):
     assert picture.save(tmp_path / "a.png").read_bytes() == picture.data
     with pytest.raises(ValueError, match="this picture is a .png"):
         picture.save(tmp_path / "a.svg")
-    drawn = done.plot("U1", ending="svg", scale=1, body=["block"])
+    drawn = done.plot("U1", ending="svg", scale=1, bodies=["block"])
     assert "<svg" in drawn._repr_svg_() and "U1" in drawn._repr_svg_()
     lines = done.plot(history=["press.CFN2", "press.CFS1"], ending="svg")
     assert "press.CFN2" in lines._repr_svg_()

@@ -21,7 +21,7 @@ from stickslip import tables as t
 
 problem = stickslip.Problem.from_toml("case.toml")
 simulation = problem.build().run()
-simulation.plot("U1", scale=1, view="x", size=(800, 600), body=["a", "b"], time="last").save("a.png")
+simulation.plot("U1", scale=1, view="x", size=(800, 600), bodies=["a", "b"], time="last").save("a.png")
 simulation.plot("U1", vew="x")  # wrong
 simulation.plot("U1", size="800x600")  # wrong
 simulation.summary["size"]["points"] + 1

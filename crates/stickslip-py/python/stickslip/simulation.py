@@ -98,7 +98,7 @@ class Contact:
     def plot(self, field: str = "CPRESS", ending: Literal["png", "svg"] = "png", **options: Unpack[PlotOptions]) -> Picture:
         """The picture that ``stickslip plot`` draws of a field of contact, which Jupyter shows. See `Simulation.plot`.
 
-        In space the body of the secondary is drawn alone, as the other one would hide the surface; ``body="NAME"`` chooses another.
+        In space the body of the secondary is drawn alone, as the other one would hide the surface; ``bodies="NAME"`` chooses another.
 
         Raises
         ------
@@ -113,7 +113,7 @@ class Contact:
             )
         body = self._owner._body(self.name)
         if self._dim == 3 and body is not None:
-            options.setdefault("body", body)
+            options.setdefault("bodies", body)
         return self._owner.plot(field, ending, **options)
 
     def _told(self) -> list[tuple[str, Any]]:
@@ -344,7 +344,7 @@ class Simulation:
         ending
             ``"png"`` or ``"svg"``.
         options
-            Those of ``stickslip plot``, with ``_`` for ``-``: ``scale=1``, ``view="x"``, ``body=["block", "base"]``, ``size=(800, 600)``;
+            Those of ``stickslip plot``, with ``_`` for ``-``: ``scale=1``, ``view="x"``, ``bodies=["block", "base"]``, ``size=(800, 600)``;
             ``history=["press.CFN2", "press.CFS1"]`` plots columns of the history.
 
         Raises
