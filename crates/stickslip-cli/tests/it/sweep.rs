@@ -582,7 +582,7 @@ fn a_chart_of_stability_is_drawn_of_two_axes_with_its_boundary() {
     };
     plot(&[
         "--stability",
-        "primary-velocity.1,value.1",
+        "primary-velocity.1,value.2",
         "-o",
         "chart.svg",
     ]);
