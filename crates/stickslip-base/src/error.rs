@@ -1,10 +1,11 @@
 //! Errors by phase: the problem file, the mesh, the run, files.
 
-use crate::number::digits;
 use std::borrow::Cow;
 use std::fmt;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+
+use crate::number::digits;
 
 /// What can go wrong, by the phase in which it does. The command line maps the phases to exit codes.
 #[derive(Debug, Clone)]
@@ -110,7 +111,7 @@ pub struct RunError {
     pub message: String,
     /// Time reached `[the problem's unit of time]`.
     pub time: f64,
-    /// The nodes, facets or dofs to look at, most guilty first, one line each.
+    /// The nodes, facets or dofs to look at, most suspects first, one line each.
     pub culprits: Vec<String>,
     /// What to try.
     pub help: Option<String>,

@@ -14,5 +14,6 @@ pub mod owner;
 pub mod references;
 pub mod registry;
 pub mod tolerance;
+pub mod units;
 
 pub mod linear;

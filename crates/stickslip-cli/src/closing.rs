@@ -171,7 +171,7 @@ fn internals(analysis: &Analysis) -> Vec<String> {
     }
     if analysis.model.moves() {
         lines.push(format!(
-            "  energy: the error of the balance is {} of the total energy",
+            "  energy: the error of the balance is {} of the energy stored and dissipated",
             digits(s.balance.energy_quality.residual, 2)
         ));
     }

@@ -109,5 +109,5 @@ def test_the_summary_has_the_keys_and_types_that_are_told(problem, case):
     # One with findings: nothing presses the block on the base.
     case["support"]["top-y"]["y"] = 1e-3
     summary = stickslip.Problem.from_dict(case).build().run().summary
-    assert summary["findings"] and summary["findings"][0]["guilty"]
+    assert summary["findings"] and summary["findings"][0]["suspects"]
     compare(summary, _summary.Summary, "summary")

@@ -13,6 +13,7 @@
 
 pub use stickslip_base::{
     error, family, keep, linear, machine, math, number, owner, references, registry, tolerance,
+    units,
 };
 pub use stickslip_mechanics::{body, contact, friction, material, mesh, newton, shape, system};
 

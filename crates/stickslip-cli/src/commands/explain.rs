@@ -111,7 +111,7 @@ fn explain(summary: &Value, findings: &[Finding]) -> String {
     }
     if findings
         .iter()
-        .any(|f| f.guilty.iter().any(|g| g.position.is_some()))
+        .any(|f| f.suspects.iter().any(|g| g.position.is_some()))
     {
         text += "\nThe places are in culprits.vtu, for ParaView.\n";
     }
@@ -152,9 +152,7 @@ fn gate(summary: &Value, findings: &[Finding]) -> String {
         let limit = number("limit").unwrap_or(f64::INFINITY);
         let both = number("value").map(|value| told_apart(value, limit));
         let [value, limit] = both.unwrap_or(["not a number".into(), digits(limit, 2)]);
-        let when = number("time").map_or(String::new(), |t| {
-            format!(", at time {t}", t = digits(t, 6))
-        });
+        let when = number("time").map_or(String::new(), |t| format!(", at time {}", digits(t, 6)));
         let (what, help) = Figure::meaning(name, findings).unwrap_or((
             "it is not known to this version",
             "see the version that ran it".to_string(),
@@ -277,7 +275,7 @@ fn group(severity: Severity, cause: DoctorCause, all: &[&Finding]) -> String {
     let times: Vec<f64> = all.iter().filter_map(|f| f.time).collect();
     if let (Some(first), Some(last)) = (times.first(), times.last()) {
         when = match first == last {
-            true => format!(", at time {first}", first = digits(first, 6)),
+            true => format!(", at time {}", digits(first, 6)),
             false => format!(
                 ", from time {first} to {last}",
                 first = digits(first, 6),
@@ -290,8 +288,8 @@ fn group(severity: Severity, cause: DoctorCause, all: &[&Finding]) -> String {
     }
     let mut text = format!("{severity}: {cause}, {count}{when}\n");
     text += &print::wrap(&format!("{}.", one.message), 2, WIDTH);
-    for guilty in &one.guilty {
-        text += &item("where", &guilty.to_string());
+    for suspects in &one.suspects {
+        text += &item("where", &suspects.to_string());
     }
     let others = others(one, all);
     if !others.is_empty() {
@@ -316,10 +314,10 @@ fn group(severity: Severity, cause: DoctorCause, all: &[&Finding]) -> String {
 fn others(one: &Finding, all: &[&Finding]) -> Vec<String> {
     let same = |a: &Suspect, b: &Suspect| (a.what, &a.name, a.id) == (b.what, &b.name, b.id);
     let mut found: Vec<&Suspect> = Vec::new();
-    for guilty in all.iter().flat_map(|f| &f.guilty) {
-        let known = one.guilty.iter().chain(found.iter().copied());
-        if !known.into_iter().any(|k| same(k, guilty)) {
-            found.push(guilty);
+    for suspects in all.iter().flat_map(|f| &f.suspects) {
+        let known = one.suspects.iter().chain(found.iter().copied());
+        if !known.into_iter().any(|k| same(k, suspects)) {
+            found.push(suspects);
         }
     }
     let brief = |g: &Suspect| Suspect {

@@ -251,11 +251,14 @@ fn blames_the_friction_problem(folder: &str, said: &str) {
     assert!(message.contains("friction problem of"), "{message}");
     assert!(!message.contains("of 0 points"), "{message}");
     assert!(message.contains("by proximal newton"), "{message}");
-    let guilty = finding["guilty"].as_array().expect("places");
+    let suspects = finding["suspects"].as_array().expect("places");
     let known = |g: &serde_json::Value| g["interface"] == "base" && g["position"].is_array();
-    assert!(guilty.iter().all(known), "{guilty:?}");
-    let ids: std::collections::BTreeSet<_> = guilty.iter().map(|g| g["id"].as_u64()).collect();
-    assert!(ids.len() == guilty.len() && !ids.is_empty(), "{guilty:?}");
+    assert!(suspects.iter().all(known), "{suspects:?}");
+    let ids: std::collections::BTreeSet<_> = suspects.iter().map(|g| g["id"].as_u64()).collect();
+    assert!(
+        ids.len() == suspects.len() && !ids.is_empty(),
+        "{suspects:?}"
+    );
     let advice = finding["advice"].to_string();
     assert!(advice.contains("a smoother law"), "{advice}");
     assert!(said.contains("is solved, by proximal newton"), "{said}");

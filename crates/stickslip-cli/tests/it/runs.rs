@@ -347,8 +347,8 @@ fn explain_tells_how_a_run_went() {
         .expect("a finding");
     assert_eq!(last["cause"], "free-rigid-mode");
     assert_eq!(last["severity"], "error");
-    assert_eq!(last["guilty"][0]["what"], "body");
-    assert!(last["guilty"][0]["position"].is_array());
+    assert_eq!(last["suspects"][0]["what"], "body");
+    assert!(last["suspects"][0]["position"].is_array());
     let places = std::fs::read(Path::new(&out).join("culprits.vtu")).expect("places");
     assert!(String::from_utf8_lossy(&places).contains("Name=\"CAUSE\""));
 }

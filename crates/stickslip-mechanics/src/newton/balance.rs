@@ -11,7 +11,7 @@ pub(super) struct Balance {
     pub forces: Vec<f64>,
     /// Norm over the free dofs.
     pub norm: f64,
-    /// Size of the forces in play.
+    /// Scale of forces.
     pub scale: f64,
     /// What rounding leaves of the forces.
     pub floor: f64,
@@ -44,7 +44,7 @@ impl Balance {
         statistics.seconds.contact += started.elapsed().as_secs_f64();
         let mut forces = vec![0.0; at.u.len()];
         let others = system.bulk.forces(&at.u, &mut forces);
-        // Forces in play are those on the points: what a rigid body gets from two sides may cancel.
+        // The scale is of forces on the points: what a rigid body gets from two sides may cancel.
         let contact: f64 = out.residual.iter().map(|r| r * r).sum();
         transfer(system.links, out);
         if tangent && !out.tentative {
@@ -72,7 +72,7 @@ impl Balance {
         })
     }
 
-    /// The out-of-balance force relative to the forces in play.
+    /// The out-of-balance force relative to the scale of forces.
     pub fn relative(&self) -> f64 {
         if self.norm == 0.0 {
             0.0
@@ -91,7 +91,7 @@ impl Balance {
         target.is_finite() && self.norm <= target && multipliers <= target
     }
 
-    /// A force relative to those in play.
+    /// A force relative to the scale of forces.
     pub fn compared(&self, force: f64) -> f64 {
         force / self.scale.max(f64::MIN_POSITIVE)
     }

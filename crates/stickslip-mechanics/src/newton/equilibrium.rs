@@ -207,7 +207,7 @@ fn not_converged(attempt: &Attempt, residuals: &[f64]) -> StepFailure {
         .map(|r| digits(r, 2))
         .collect();
     let sentence = format!(
-        "no equilibrium in {} iterations; out-of-balance force relative to the forces in play: … {}",
+        "no equilibrium in {} iterations; relative out-of-balance force: … {}",
         residuals.len() - 1,
         last.join(", ")
     );

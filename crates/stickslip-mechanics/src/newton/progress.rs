@@ -8,7 +8,7 @@ pub struct Progress {
     pub iteration: usize,
     /// Multiplier update, from 0.
     pub round: usize,
-    /// Out-of-balance force relative to the forces in play, before the step; the larger one of displacements and multipliers.
+    /// Out-of-balance force relative to the scale of forces, before the step; the larger one of displacements and multipliers.
     pub residual: f64,
     /// Step length taken.
     pub step: f64,
@@ -27,7 +27,7 @@ pub struct Converged {
     pub iterations: usize,
     /// Multiplier updates.
     pub rounds: usize,
-    /// Out-of-balance force relative to the forces in play.
+    /// Out-of-balance force relative to the scale of forces.
     pub residual: f64,
     /// Internal minus external forces at the dofs of the bulk: reactions at the fixed ones.
     pub forces: Vec<f64>,

@@ -1,7 +1,7 @@
 /// Dimensionless settings of the iteration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Largest out-of-balance force relative to the forces in play.
+    /// Largest out-of-balance force relative to the scale of forces.
     pub tolerance: f64,
     /// Most iterations for one equilibrium.
     pub max_iterations: usize,

@@ -28,7 +28,7 @@ pub(super) struct Demand {
     before: f64,
     /// By which factor it may grow at most.
     growth: f64,
-    /// The forces in play before the step.
+    /// The scale of forces before the step.
     in_play: f64,
 }
 
@@ -41,7 +41,7 @@ pub(super) struct Taken {
 }
 
 impl StepControl {
-    /// What a step has to achieve after iterates with these residuals relative to the forces in play; `before` is the last of them, as a force, and `in_play` what it is
+    /// What a step has to achieve after iterates with these residuals relative to the scale of forces; `before` is the last of them, as a force, and `in_play` what it is
     /// relative to.
     pub fn demand(&mut self, residuals: &[f64], before: f64, in_play: f64) -> Demand {
         let iteration = residuals.len() - 1;
@@ -73,7 +73,7 @@ impl Demand {
         measure <= self.growth * self.before
     }
 
-    /// Whether it may be a jump that a full step leads to. Where points leave the surface or come back to it forces jump, by no more than was in play; shorter steps would
+    /// Whether it may be a jump that a full step leads to. Where points leave the surface or come back to it forces jump, by no more than the scale; shorter steps would
     /// come nearer and nearer to the edge and gain less and less. Not where points chatter: there a step has to gain.
     fn lets_jump(&self, measure: f64) -> bool {
         self.growth > LEAST_GAIN && measure <= self.in_play

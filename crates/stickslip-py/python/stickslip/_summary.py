@@ -12,7 +12,7 @@ Finding = TypedDict(
         "cause": str,
         "severity": str,
         "message": str,
-        "guilty": list[Place],
+        "suspects": list[Place],
         "tried": list[str],
         "advice": list[str],
         "step": Optional[int],

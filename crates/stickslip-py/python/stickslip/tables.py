@@ -322,8 +322,8 @@ class ComplexModes(Table):
     export
         Whether the matrices are written for other programs: over all unknowns as MatrixMarket files, condensed to few displacements as arrays of NumPy.
     friction_damping
-        Whether friction damps: by turning with the sliding, and by the slope of its coefficient over the speed. The least damping is the safe side, and what Abaqus takes
-        if not told otherwise.
+        Whether friction damps: by turning with the sliding, and by the slope of its coefficient over the speed. The least damping is the safe side, and the default of
+        Abaqus.
     map
         Frequencies and growth for other friction, speed or load: the contact state is kept, and what friction adds to the equations is multiplied, or evaluated anew.
     sensitivity
@@ -1252,7 +1252,7 @@ class Harmonic(Table):
     ----------
     bias
         Frequencies crowd at the modes: `points` of them from each of `from`, the frequencies of the real modes between, and `to` to the next, ends counted, the nearer to
-        the ends the larger this is. 1 is even; 3 is what Abaqus and CalculiX take if not told otherwise. If not given, `points` are spread evenly from `from` to `to`.
+        the ends the larger this is. 1 is even; 3 is the default of Abaqus and CalculiX. If not given, `points` are spread evenly from `from` to `to`.
     count
         At most so many modes are superposed; those up to one and a half times the highest frequency are, and the give at rest of all others.
     damping
@@ -1503,7 +1503,7 @@ class Limits(Table):
         False slip of sticking points over an increment, over the elastic approach. Not judged in motion, where a point that comes to rest
         sticks.
     energy
-        Residual of the energy balance over the energies in play (at least the work of the forces along a millionth of the model), at the end. If not given: `solver.energy-limit`. In a
+        Residual of the energy balance over the energy stored and dissipated (at least the work of the forces along a millionth of the model), at the end. If not given: `solver.energy-limit`. In a
         quasi-static analysis no force follows from the ledger: works and losses are off by that part. Above a thousandth it is a note.
     equilibrium
         Balance of each body: resultant force and moment of interfaces, loads, springs and supports (in motion also of inertia and damping),
@@ -1556,7 +1556,7 @@ class Limits(Table):
         along the normals and in the mean over what presses. In an unconstrained direction a body goes along, and only what differs from point to point counts. In motion the
         largest so far of both are compared. Bodies that turn in frames miss nothing.
     scheme_dissipation
-        Energy that the scheme has dissipated (`ALLND`), over the energies in play, at the end. What moves is slower for it, by half that part: at the limit by one in
+        Energy that the scheme has dissipated (`ALLND`), over the energy stored and dissipated, at the end. What moves is slower for it, by half that part: at the limit by one in
         a hundred, as much as the balance of energies may be open. What the scheme feeds in counts in `energy`.
     strain
         Strain of each body that turns in frames, of every body where this is given: the root of the mean square, weighted with the energy. Strains are taken as small, and
@@ -2356,7 +2356,7 @@ class Solver(Table):
     Parameters
     ----------
     energy_limit
-        Largest residual of the energy balance, as a fraction of the energies in play, that counts as good; the summary says whether it was
+        Largest residual of the energy balance, relative to the energy stored and dissipated, that counts as good; the summary says whether it was
         kept.
     engine
         The linear solver that factors condensed bodies, and keeps the factors.
@@ -2375,7 +2375,7 @@ class Solver(Table):
     method
         How the systems of Newton's method are solved.
     tolerance
-        Largest out-of-balance force, as a fraction of the forces in play.
+        Largest out-of-balance force, relative to the largest of reactions, external forces and contact forces.
     """
 
     def __init__(self, *, energy_limit: float | None = None, engine: Engine | None = None, follow_loose_bodies: bool | None = None, largest_change: float | None = None, line_search: int | None = None, linear: LinearSolver | None = None, max_iterations: int | None = None, method: Solution | None = None, tolerance: float | None = None) -> None:

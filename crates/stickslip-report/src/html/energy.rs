@@ -74,7 +74,7 @@ pub fn section(results: &Results) -> String {
             _ => mark("warn", "beyond its limit"),
         };
         out += &format!(
-            "<p>The largest error of the balance is {} of the total energy; the limit is {}. {verdict}</p>\n",
+            "<p>The largest error of the balance is {} of the energy stored and dissipated; the limit is {}. {verdict}</p>\n",
             figure(residual),
             figure(limit)
         );

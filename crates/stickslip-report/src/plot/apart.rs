@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use stickslip::io::vtu::PointFields;
-use stickslip::math::symmetric_eigen;
+use stickslip::math::{cross, distance, dot, norm, symmetric_eigen};
 
-use super::camera::{Camera, Frame, View, cross, unit};
+use super::camera::{Camera, Frame, View, unit};
 use super::raster::{Corner, Raster};
 use super::zoom::{self, Mirror};
 use crate::colour::Scale;
@@ -125,28 +125,16 @@ fn opposite(
         let mut nearest = vec![f64::INFINITY; sums.len()];
         for &i in of_contact {
             let body = skin.owner[i] as usize;
-            nearest[body] = nearest[body].min(square(minus(moved[i], *x)));
+            nearest[body] = nearest[body].min(distance(moved[i], *x));
         }
         for (sum, near) in sums.iter_mut().zip(nearest) {
-            *sum += near.sqrt();
+            *sum += near;
         }
     }
     let others = (0..sums.len()).filter(|&b| b != own);
     let best = others.min_by(|&a, &b| sums[a].total_cmp(&sums[b]))?;
     let mean = sums[best] / samples.count().max(1) as f64;
     (mean <= BESIDE * skin.size()).then_some(best)
-}
-
-fn minus(a: Vec3, b: Vec3) -> Vec3 {
-    [0, 1, 2].map(|c| a[c] - b[c])
-}
-
-fn dot(a: Vec3, b: Vec3) -> f64 {
-    (0..3).map(|c| a[c] * b[c]).sum()
-}
-
-fn square(a: Vec3) -> f64 {
-    dot(a, a)
 }
 
 /// The mean normal of a contact, and whether its points agree on it; of what closes around a pin the direction along the pin.
@@ -161,7 +149,7 @@ fn direction(contact: &Contact) -> (Vec3, bool) {
             }
         }
     }
-    if square(sum).sqrt() >= 0.5 * contact.points.len() as f64 {
+    if norm(sum) >= 0.5 * contact.points.len() as f64 {
         return (unit(sum), true);
     }
     // Ascending, a column each.
@@ -193,7 +181,7 @@ pub fn row(contacts: &[Contact], bodies: usize, mirrors: &[Mirror]) -> Option<Ro
     // Not out of a plane of symmetry, where that leaves a direction.
     let mut within = along;
     mirrors.iter().for_each(|(axis, _)| within[*axis] = 0.0);
-    if square(within).sqrt() > 0.3 {
+    if norm(within) > 0.3 {
         along = unit(within);
     }
     // Towards the eye that looks from above, so that the order is the same whichever side is the secondary.

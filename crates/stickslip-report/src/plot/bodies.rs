@@ -1,10 +1,11 @@
 //! Which bodies are drawn, and from where, so that the field can be seen.
 
+use stickslip::math::cross;
 use stickslip::problem::nearest;
 
 use super::apart::{Contact, Row, Stage, in_view, row, views};
 use super::axis;
-use super::camera::{Camera, View, cross, unit};
+use super::camera::{Camera, View, unit};
 use super::picture::{Apart, Picture, Zoom};
 use crate::skin::Skin;
 

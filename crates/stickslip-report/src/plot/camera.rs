@@ -2,6 +2,8 @@
 
 use std::str::FromStr;
 
+use stickslip::math::{cross, dot};
+
 type Vec3 = [f64; 3];
 
 /// From where one looks.
@@ -30,19 +32,6 @@ impl FromStr for View {
             _ => Err(format!("`{text}` is no view: iso, x, y, z, -x, -y or -z")),
         }
     }
-}
-
-fn dot(a: Vec3, b: Vec3) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// The cross product.
-pub fn cross(a: Vec3, b: Vec3) -> Vec3 {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
 }
 
 /// The vector with length one; as it is if it has none.

@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 
 use stickslip::io::vtu::PointFields;
+use stickslip::math::cross;
 
-use super::camera::{Camera, Frame, cross, unit};
+use super::camera::{Camera, Frame, unit};
 use super::raster::{Corner, FINE, Raster};
 use super::words::{INK, SOFT};
 use super::zoom::{self, Mirror};

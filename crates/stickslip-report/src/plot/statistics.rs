@@ -1,7 +1,8 @@
 //! Which values a picture shows, and which of them its colours span.
 
+use stickslip::math::{cross, norm, sub};
+
 use crate::field;
-use crate::plot::camera::cross;
 use crate::skin::Skin;
 
 /// The part of the area at each end of the values that colours may leave out.
@@ -14,7 +15,7 @@ pub fn weights(skin: &Skin, values: &[f64], bodies: &[bool]) -> Vec<f64> {
     let mut weights = vec![0.0; values.len()];
     if skin.dim == 2 && values.iter().any(|v| v.is_nan()) {
         for e in skin.rim.iter().filter(|e| e.iter().all(|&i| drawn(i))) {
-            let length = size(minus(x(e[1]), x(e[0])));
+            let length = norm(sub(x(e[1]), x(e[0])));
             e.iter().for_each(|&i| weights[i as usize] += length / 2.0);
         }
         return weights;
@@ -25,18 +26,10 @@ pub fn weights(skin: &Skin, values: &[f64], bodies: &[bool]) -> Vec<f64> {
         .filter(|t| t.iter().all(|&i| drawn(i)))
     {
         let [a, b, c] = t.map(x);
-        let area = size(cross(minus(b, a), minus(c, a))) / 2.0;
+        let area = norm(cross(sub(b, a), sub(c, a))) / 2.0;
         t.iter().for_each(|&i| weights[i as usize] += area / 3.0);
     }
     weights
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|c| a[c] - b[c])
-}
-
-fn size(v: [f64; 3]) -> f64 {
-    v.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// The range that holds 99 % of the area at each end: values beyond it are left out only where they are further from the rest than half of its width, as those of single nodes at

@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
+use stickslip::math::cross;
 use stickslip::model::Setup;
 use stickslip::problem::Problem;
 
-use super::camera::{cross, unit};
+use super::camera::unit;
 use super::marks::{Drawn, arrow};
 use super::words::{INK, SOFT};
 use crate::colour::Rgb;

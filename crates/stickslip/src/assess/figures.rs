@@ -108,7 +108,7 @@ pub(crate) static COMPLEMENTARITY: Kind = Kind {
     name: "complementarity",
     own: LEAST_FORCE,
     model: TRACE_OF_FORCE,
-    what: "pressure at open points: gap over the size of the cell",
+    what: "pressure at open points: mean gap over the size of the cells",
     help: "lower `solver.tolerance` or the `error` of the enforcement",
 };
 
@@ -125,7 +125,7 @@ pub(crate) static UNDETECTED_APPROACH: Kind = Kind {
     name: "undetected-approach",
     own: 0.0,
     model: 0.0,
-    what: "penetration between contact points over the elastic approach; forces have about the same relative error",
+    what: "penetration between contact points, or gap around a point that carries pressure, over itself plus the elastic approach; forces have about the same relative error",
     help: "choose the finer surface as secondary, or refine both where they touch",
 };
 
@@ -283,7 +283,7 @@ pub(crate) static SCHEME_DISSIPATION: Kind = Kind {
     name: "scheme-dissipation",
     own: 1.0,
     model: 1.0,
-    what: "numerical dissipation of the time integration over the total energy; velocities are too low by half of it",
+    what: "numerical dissipation of the time integration over the energy stored and dissipated; velocities are too low by half of it",
     help: "take smaller increments, or a scheme that dissipates less: `dynamic.contact-at = \"stage\"` where laws are compliant, `rho` nearer to 1; what the scheme is meant to damp is the noise of a mesh, which has little energy",
 };
 

@@ -174,7 +174,7 @@ fn say_unbalanced(
         None => "no friction would hold it".to_string(),
     };
     let when = match first > view.frame.state.t {
-        true => format!(" from {first} on", first = digits(first, 6)),
+        true => format!(" from {} on", digits(first, 6)),
         false => String::new(),
     };
     let message = format!(

@@ -168,10 +168,10 @@ pub(crate) fn judge_energy(
     let t = view.frame.state.t;
     let (open, scale) = (pair[0], pair[1].max(f64::MIN_POSITIVE));
     let unknown = ledger.uncertain;
-    // A quasi-static energy balance that is off by more than a thousandth of the energy in play is worth a note.
+    // A quasi-static energy balance that is off by more than a thousandth of the energy stored and dissipated is worth a note.
     if !moves && open > 1e-3 * scale {
         notes.push(format!(
-            "the error of the energy balance is {:.1} % of the total energy, and so is that of works and losses. Smaller increments reduce the part that comes from changes within an increment; the rest comes from forces along other directions than the gaps, as at edges in contact or with small rotations",
+            "the error of the energy balance is {:.1} % of the energy stored and dissipated, and so is that of works and losses. Smaller increments reduce the part that comes from changes within an increment; the rest comes from forces along other directions than the gaps, as at edges in contact or with small rotations",
             100.0 * open / scale
         ));
     }
@@ -179,7 +179,9 @@ pub(crate) fn judge_energy(
     if !moves && unknown > 1e-2 * scale {
         notes.push(format!(
             "friction took {}, ± {unknown}: points began to slide within increments, at times that are not known. Smaller increments make it less",
-            figure(ledger.friction), unknown = digits(unknown, 2)));
+            figure(ledger.friction),
+            unknown = digits(unknown, 2),
+        ));
     }
     if moves {
         let lost = [ledger.numerical.max(0.0), pair[1]];

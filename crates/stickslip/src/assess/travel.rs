@@ -138,7 +138,7 @@ fn prescribed_way(view: &View) -> f64 {
 fn note_far(view: &View, body: &str, way: f64, moved: f64, findings: &mut Vec<Finding>) {
     let known = |f: &Finding| {
         let about = |g: &Suspect| g.what == LocationKind::Body && g.name == body;
-        f.cause == DoctorCause::FarAway && f.guilty.iter().any(about)
+        f.cause == DoctorCause::FarAway && f.suspects.iter().any(about)
     };
     if findings.iter().any(known) {
         return;

@@ -266,8 +266,9 @@ impl<'a> InertialFrame<'a> {
             return Err(StepFailure::new(
                 Cause::NotConverged,
                 format!(
-                    "bodies that turn are out of balance by {} of the forces in play after {passes} passes",
-                    digits(off / scale.max(f64::MIN_POSITIVE), 2)),
+                    "bodies that turn are out of balance by {} of the forces on them after {passes} passes",
+                    digits(off / scale.max(f64::MIN_POSITIVE), 2),
+                ),
             )
             .help("take smaller increments; bodies must not be strained by more than a few per cent"));
         }

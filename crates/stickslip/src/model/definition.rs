@@ -87,7 +87,7 @@ pub struct SolutionPlan {
     pub engine: EngineModel,
     /// Largest displacement increment relative to the size of the model.
     pub largest_change: f64,
-    /// Largest residual of the energy balance, relative to the energies in play, that counts as good.
+    /// Largest residual of the energy balance, relative to the energy stored and dissipated, that counts as good.
     pub energy_limit: f64,
     /// Whether bodies that only contact can hold are followed until it does.
     pub follow: bool,

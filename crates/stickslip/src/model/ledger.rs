@@ -74,7 +74,7 @@ pub(crate) struct Entered {
     moved: f64,
     exceeded: f64,
     impacts: f64,
-    /// Work that frames of bodies that turn have handed on so far: nothing keeps it, and yet it is in play.
+    /// Work that frames of bodies that turn have handed on so far: it is stored nowhere, and yet counts.
     transmitted: f64,
 }
 
@@ -82,11 +82,11 @@ pub(crate) struct Entered {
 #[derive(Debug, Clone, Copy, Default, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct EnergyQuality {
-    /// Largest energy in play so far: stored and dissipated `[J]`.
+    /// Largest energy stored and dissipated so far `[J]`.
     pub scale: f64,
     /// By how much the balance was open so far at most `[J]`: its residual, or spurious energy growth.
     pub largest: f64,
-    /// The same relative to the energy in play `[-]`.
+    /// The same relative to it `[-]`.
     pub residual: f64,
     /// What the residual should not exceed.
     pub limit: f64,
@@ -172,7 +172,7 @@ impl EnergyLedger {
     }
 
     /// Everything stored and dissipated, and what heat could store.
-    fn in_play(&self) -> f64 {
+    fn stored_and_dissipated(&self) -> f64 {
         self.kinetic
             + self.strain
             + self.entered.held
@@ -188,7 +188,7 @@ impl EnergyLedger {
 impl EnergyQuality {
     /// Takes note of the ledger after an increment.
     pub(crate) fn note(&mut self, ledger: &EnergyLedger) {
-        self.scale = self.scale.max(ledger.in_play());
+        self.scale = self.scale.max(ledger.stored_and_dissipated());
         // What is not a number is no small residual.
         let open = match ledger.residual.is_nan() {
             true => f64::INFINITY,

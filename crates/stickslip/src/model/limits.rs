@@ -122,11 +122,11 @@ pub struct Limits {
     /// they give way over what the bodies do.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub explicit_opening: f64,
-    /// Energy that the scheme has dissipated (`ALLND`), over the energies in play, at the end. What moves is slower for it, by half that part: at the limit by one in
+    /// Energy that the scheme has dissipated (`ALLND`), over the energy stored and dissipated, at the end. What moves is slower for it, by half that part: at the limit by one in
     /// a hundred, as much as the balance of energies may be open. What the scheme feeds in counts in `energy`.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub scheme_dissipation: f64,
-    /// Residual of the energy balance over the energies in play (at least the work of the forces along a millionth of the model), at the end. If not given: `solver.energy-limit`. In a
+    /// Residual of the energy balance over the energy stored and dissipated (at least the work of the forces along a millionth of the model), at the end. If not given: `solver.energy-limit`. In a
     /// quasi-static analysis no force follows from the ledger: works and losses are off by that part. Above a thousandth it is a note.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -12,6 +12,7 @@ use super::key;
 use super::nearest::{nearest, suggest, synonym};
 use super::tree::{Value, number};
 use crate::number::digits;
+use crate::units;
 
 /// Where a value without a key is meant to go, by the key of the table that it stands for: the first that takes it.
 pub(super) const USUAL: &[(&str, &[&str])] = &[
@@ -111,32 +112,13 @@ pub(super) fn instead(word: &str) -> Option<&'static str> {
     known.map(|(_, advice)| *advice)
 }
 
-/// Units of stress and length that people write, in newtons and metres.
-const UNITS: &[(&str, f64)] = &[
-    ("Pa", 1.0),
-    ("kPa", 1e3),
-    ("MPa", 1e6),
-    ("GPa", 1e9),
-    ("N/mm2", 1e6),
-    ("N/mm^2", 1e6),
-    ("m", 1.0),
-    ("cm", 1e-2),
-    ("mm", 1e-3),
-    ("um", 1e-6),
-    ("µm", 1e-6),
-    ("N", 1.0),
-    ("kN", 1e3),
-];
-
 /// What to write in place of a number with a unit. Problem files have none: one unit a number would be wrong in all files that are in millimetres, and to
 /// convert all numbers it would take the dimension of every key and of every constant of a law.
 pub(super) fn without_unit(text: &str) -> Option<String> {
-    let text = text.trim();
-    let unit = text.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.eE".contains(c));
-    let value: f64 = text[..text.len() - unit.len()].trim().parse().ok()?;
-    let factor = UNITS.iter().find(|(name, _)| *name == unit.trim())?.1;
+    let (value, unit) = units::split(text).filter(|(_, unit)| !unit.is_empty())?;
+    let (factor, _) = units::in_base_units(unit).ok()?;
     Some(format!(
-        "numbers have no units: any consistent set will do; in metres and newtons this is {}",
+        "numbers have no units: any consistent set will do; in metres, kilograms and seconds this is {}",
         digits(value * factor, 8)
     ))
 }

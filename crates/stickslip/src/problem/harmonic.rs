@@ -30,7 +30,7 @@ pub struct Harmonic {
     #[cfg_attr(feature = "schema", schemars(range(min = 2, max = 100_000)))]
     pub points: usize,
     /// Frequencies crowd at the modes: `points` of them from each of `from`, the frequencies of the real modes between, and `to` to the next, ends counted, the nearer to
-    /// the ends the larger this is. 1 is even; 3 is what Abaqus and CalculiX take if not told otherwise. If not given, `points` are spread evenly from `from` to `to`.
+    /// the ends the larger this is. 1 is even; 3 is the default of Abaqus and CalculiX. If not given, `points` are spread evenly from `from` to `to`.
     #[cfg_attr(feature = "schema", schemars(extend("minimum" = 1)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bias: Option<f64>,

@@ -62,8 +62,8 @@ pub struct ComplexModes {
     pub to: Option<f64>,
     /// Whether shapes are written as fields, real and imaginary parts.
     pub shapes: bool,
-    /// Whether friction damps: by turning with the sliding, and by the slope of its coefficient over the speed. The least damping is the safe side, and what Abaqus takes
-    /// if not told otherwise.
+    /// Whether friction damps: by turning with the sliding, and by the slope of its coefficient over the speed. The least damping is the safe side, and the default of
+    /// Abaqus.
     pub friction_damping: bool,
     /// Frequencies and growth for other friction, speed or load: the contact state is kept, and what friction adds to the equations is multiplied, or evaluated anew.
     #[serde(skip_serializing_if = "Option::is_none")]

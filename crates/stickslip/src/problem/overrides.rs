@@ -29,7 +29,11 @@ pub(super) fn apply<'i>(root: &mut Table<'i>, text: &'i str) -> Result<(), Diagn
         let name = key::join(&path[..=depth]);
         node = match node.enter(segment) {
             Some(place) => place,
-            None => return Err(wrong(format!("`{name}` is neither a table nor an entry"))),
+            None => {
+                return Err(wrong(format!(
+                    "`{name}` is neither a table nor an entry of a list; entries are counted from 1, or called by their `name`"
+                )));
+            }
         };
     }
     match node {
@@ -165,11 +169,11 @@ mod tests {
             ("a.b", "the override `a.b` has no `=`"),
             (
                 "a.b=1",
-                "override `a.b=1`: `a` is neither a table nor an entry",
+                "override `a.b=1`: `a` is neither a table nor an entry of a list; entries are counted from 1, or called by their `name`",
             ),
             (
                 "step.2.duration=1",
-                "override `step.2.duration=1`: `step.2` is neither a table nor an entry",
+                "override `step.2.duration=1`: `step.2` is neither a table nor an entry of a list; entries are counted from 1, or called by their `name`",
             ),
             (
                 "step.0=1",

@@ -8,7 +8,7 @@ use crate::newton::condensed::engine::EngineModel;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Solver {
-    /// Largest out-of-balance force, as a fraction of the forces in play.
+    /// Largest out-of-balance force, relative to the largest of reactions, external forces and contact forces.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1)))]
     pub tolerance: f64,
     /// Newton iterations after which an increment is cut.
@@ -21,7 +21,7 @@ pub struct Solver {
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub largest_change: Option<f64>,
-    /// Largest residual of the energy balance, as a fraction of the energies in play, that counts as good; the summary says whether it was
+    /// Largest residual of the energy balance, relative to the energy stored and dissipated, that counts as good; the summary says whether it was
     /// kept.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     pub energy_limit: f64,

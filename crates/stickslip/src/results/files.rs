@@ -257,7 +257,7 @@ impl ResultFiles {
         write_atomically(&path, text.as_bytes())?;
         let places = self.folder.directory.join("culprits.vtu");
         let findings = &summary.findings;
-        if findings.iter().all(|f| f.guilty.is_empty()) {
+        if findings.iter().all(|f| f.suspects.is_empty()) {
             // Those of an earlier run would mislead.
             return remove(&places);
         }

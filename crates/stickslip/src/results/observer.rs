@@ -61,7 +61,7 @@ pub struct Advance {
     pub iterations: usize,
     /// Its end `[s]`.
     pub time: f64,
-    /// Final residual relative to the forces in play.
+    /// Final residual relative to the scale of forces.
     pub residual: f64,
     /// Points by status.
     pub tally: Tally,

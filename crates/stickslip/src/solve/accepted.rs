@@ -12,7 +12,7 @@ pub struct Effort {
     pub iterations: usize,
     /// Multiplier updates.
     pub rounds: usize,
-    /// Final residual relative to the forces in play.
+    /// Final residual relative to the scale of forces.
     pub residual: f64,
     /// Points by status.
     pub tally: Tally,

@@ -28,7 +28,7 @@ pub(crate) struct Recovered<'a> {
 impl Recovered<'_> {
     /// Refuses an interior that is not in balance: what is left at free dofs is compared with the largest of reactions, contact and what else
     /// balances, each as the root of its squares. `largest` is the largest of these in the analysis so far: where a path passes through the unloaded
-    /// state, there is nothing but rounding in play.
+    /// state, there is nothing but rounding.
     pub fn check(&self, tolerance: f64, largest: &mut f64) -> Result<(), StepFailure> {
         let (mut left, mut rounding, mut reactions) = (0.0, 0.0, 0.0_f64);
         for (i, f) in self.forces.iter().enumerate() {
@@ -49,8 +49,9 @@ impl Recovered<'_> {
             return Err(StepFailure::new(
                 Cause::Interior,
                 format!(
-                    "the recovered interior is not in balance: {} of the forces in play",
-                    digits(left.sqrt() / size, 2)),
+                    "the recovered interior is not in balance: {} of the forces on it",
+                    digits(left.sqrt() / size, 2),
+                ),
             )
             .help(
                 "where the run takes factors from a folder (`--cache`), remove that first: they may be damaged; else set `solver.method = \"sparse\"`",

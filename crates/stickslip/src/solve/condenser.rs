@@ -22,7 +22,7 @@ pub(crate) struct Condenser {
     pub(super) moving: Vec<Moving>,
     /// Why the engine cannot go on: increments are not even tried any more.
     pub(super) broken: Option<StepFailure>,
-    /// Largest norm of the forces in play at any recovered increment `[N]`.
+    /// Largest scale of forces at any recovered increment `[N]`.
     pub(super) largest_forces: f64,
 }
 

@@ -648,7 +648,10 @@ step = [{ name = "settle" }, { name = "blow" }]
     assert!(!said.contains("until they touch"), "{said}");
     let last = summary.findings.last().expect("a finding");
     assert_eq!(last.cause, DoctorCause::SlidesAway, "{last}");
-    assert!(last.guilty.iter().any(|g| g.name == "load.wind"), "{last}");
+    assert!(
+        last.suspects.iter().any(|g| g.name == "load.wind"),
+        "{last}"
+    );
 }
 
 /// A block on another, pressed and pushed sideways in proportion.

@@ -274,11 +274,11 @@ const SAYS: &[(&str, &str)] = &[
     ("body.a.shell = { thickness = 1 }", "bodies are solids"),
     (
         "material.steel.isotropic.young = \"210 GPa\"",
-        "numbers have no units: any consistent set will do; in metres and newtons this is 210e9",
+        "numbers have no units: any consistent set will do; in metres, kilograms and seconds this is 210e9",
     ),
     (
         "model.thickness = \"5mm\"",
-        "numbers have no units: any consistent set will do; in metres and newtons this is 0.005",
+        "numbers have no units: any consistent set will do; in metres, kilograms and seconds this is 0.005",
     ),
 ];
 

@@ -1,40 +1,6 @@
 //! Numbers with units, as people type them: `10mm`, `1kN/mm`, `2.9e-8/MPa`.
 
-/// Exponents of metre, kilogram and second.
-type Dimension = [i32; 3];
-
-/// Units by name: what one is in metres, kilograms and seconds.
-const UNITS: [(&str, f64, Dimension); 29] = [
-    ("m", 1.0, [1, 0, 0]),
-    ("cm", 1e-2, [1, 0, 0]),
-    ("mm", 1e-3, [1, 0, 0]),
-    ("um", 1e-6, [1, 0, 0]),
-    ("µm", 1e-6, [1, 0, 0]),
-    ("nm", 1e-9, [1, 0, 0]),
-    ("in", 0.0254, [1, 0, 0]),
-    ("kg", 1.0, [0, 1, 0]),
-    ("g", 1e-3, [0, 1, 0]),
-    ("t", 1e3, [0, 1, 0]),
-    ("s", 1.0, [0, 0, 1]),
-    ("ms", 1e-3, [0, 0, 1]),
-    ("min", 60.0, [0, 0, 1]),
-    ("h", 3600.0, [0, 0, 1]),
-    ("N", 1.0, [1, 1, -2]),
-    ("mN", 1e-3, [1, 1, -2]),
-    ("kN", 1e3, [1, 1, -2]),
-    ("MN", 1e6, [1, 1, -2]),
-    ("lbf", 4.448_221_615_260_5, [1, 1, -2]),
-    ("Nm", 1.0, [2, 1, -2]),
-    ("J", 1.0, [2, 1, -2]),
-    ("Pa", 1.0, [-1, 1, -2]),
-    ("kPa", 1e3, [-1, 1, -2]),
-    ("MPa", 1e6, [-1, 1, -2]),
-    ("GPa", 1e9, [-1, 1, -2]),
-    ("bar", 1e5, [-1, 1, -2]),
-    ("psi", 6_894.757_293_168, [-1, 1, -2]),
-    ("ksi", 6_894_757.293_168, [-1, 1, -2]),
-    ("Hz", 1.0, [0, 0, -1]),
-];
+use stickslip::units::{Dimension, in_base_units, split};
 
 /// What a quantity is: its name, its dimension, and units in which people give it.
 pub type Kind = (&'static str, Dimension, &'static str);
@@ -100,18 +66,15 @@ pub fn friction(text: &str) -> Result<f64, String> {
 }
 
 fn read(text: &str, (name, wanted, such): Kind) -> Result<f64, String> {
-    let text = text.trim();
-    let split = number_ends(text);
-    let Ok(value) = text[..split].parse::<f64>() else {
+    let Some((value, unit)) = split(text) else {
         return Err(format!(
             "this does not begin with a number; give {name}, such as {such}"
         ));
     };
-    let unit = text[split..].trim();
     if unit.is_empty() {
         return Err(format!("the unit is missing; give {name}, such as {such}"));
     }
-    let (factor, dimension) = expression(unit)?;
+    let (factor, dimension) = in_base_units(unit)?;
     if dimension != wanted {
         return Err(format!(
             "`{unit}` is not the unit of {name}, such as {such}"
@@ -121,36 +84,6 @@ fn read(text: &str, (name, wanted, such): Kind) -> Result<f64, String> {
         true => Ok(value * factor),
         false => Err(format!("{value} is not above zero")),
     }
-}
-
-/// Where the number at the start of a text ends: the longest start that is one.
-fn number_ends(text: &str) -> usize {
-    let mut ends = text.char_indices().map(|(i, c)| i + c.len_utf8());
-    ends.rfind(|&end| text[..end].parse::<f64>().is_ok())
-        .unwrap_or(0)
-}
-
-/// Units with digits as exponents, multiplied by `.`, `*` or spaces; each `/` divides by the one behind it.
-fn expression(text: &str) -> Result<(f64, Dimension), String> {
-    let (mut factor, mut dimension) = (1.0, [0; 3]);
-    let mut sign = 1;
-    for part in text.split_inclusive(['/', '*', '.', '·', ' ']) {
-        let name = part.trim_end_matches(['/', '*', '.', '·', ' ']);
-        if !name.is_empty() {
-            let stem = name.trim_end_matches(|c: char| c.is_ascii_digit());
-            let stem_unit = stem.trim_end_matches('^');
-            let power = sign * name[stem.len()..].parse::<i32>().unwrap_or(1);
-            let Some((_, size, dims)) = UNITS.iter().find(|(unit, ..)| *unit == stem_unit) else {
-                return Err(format!("`{name}` is no unit that is known here"));
-            };
-            factor *= f64::powi(*size, power);
-            for (d, s) in dimension.iter_mut().zip(dims) {
-                *d += power * s;
-            }
-        }
-        sign = if part.ends_with('/') { -1 } else { 1 };
-    }
-    Ok((factor, dimension))
 }
 
 #[cfg(test)]

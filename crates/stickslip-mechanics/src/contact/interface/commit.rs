@@ -131,7 +131,7 @@ pub fn commit(interface: &mut InterfaceForce, stage: &Stage) -> History {
 }
 
 /// Takes multipliers for the tractions where what the laws answer is not quite the same: because they are so steep that it is rounding to some digits, or
-/// because the forces in play, by which the balance is judged, are larger by far. Multipliers are what acts on the bodies.
+/// because the forces by which the balance is judged are larger by far. Multipliers are what acts on the bodies.
 fn trust_multipliers(points: &mut [Evaluation]) {
     let size = |t: &[f64; 3]| t.iter().fold(0.0, |m: f64, t| m.max(t.abs()));
     let forces = points.iter().map(|e| size(&e.kept.multiplier) * e.area);

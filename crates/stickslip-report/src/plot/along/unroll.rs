@@ -1,13 +1,11 @@
 //! A surface in space laid into a plane: in plan where it has a side that it faces, unrolled where it goes around an axis.
 
-use super::super::camera::{cross, unit};
+use stickslip::math::{cross, dot, norm};
+
+use super::super::camera::unit;
 use crate::sheet::Sheet;
 
 type Vec3 = [f64; 3];
-
-fn dot(a: Vec3, b: Vec3) -> f64 {
-    (0..3).map(|c| a[c] * b[c]).sum()
-}
 
 /// How a surface is laid into a plane.
 enum Lay {
@@ -25,7 +23,7 @@ fn lay(sheet: &Sheet) -> Lay {
     let x = &sheet.grid.points.points;
     let (mean, spread, area) = normals(sheet);
     // Half of the area has to face one side for a plan.
-    if dot(mean, mean).sqrt() > 0.5 * area || area <= 0.0 {
+    if norm(mean) > 0.5 * area || area <= 0.0 {
         let out = if area > 0.0 {
             unit(mean)
         } else {
@@ -116,7 +114,7 @@ fn normals(sheet: &Sheet) -> (Vec3, [Vec3; 3], f64) {
         };
         let edge = |[p, q]: [Vec3; 2]| [0, 1, 2].map(|c| q[c] - p[c]);
         let n = cross(edge(a), edge(b)).map(|v| v / 2.0);
-        let size = dot(n, n).sqrt();
+        let size = norm(n);
         area += size;
         for c in 0..3 {
             mean[c] += n[c];

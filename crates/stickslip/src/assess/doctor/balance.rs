@@ -149,7 +149,9 @@ fn judge(
             DoctorCause::SlidesAway,
             format!(
                 "body {name} slides away: the loads push it along its contact by {along}, and friction resists {} at most",
-                figure(mu * pressing), along = figure(along)),
+                figure(mu * pressing),
+                along = figure(along),
+            ),
         )
     })
 }

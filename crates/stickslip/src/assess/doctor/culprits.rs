@@ -16,7 +16,7 @@ const MOST_SHOWN: usize = 200;
 ///
 /// Point data: `NODE_ID` (0 where the place is no node), `CAUSE` ([`DoctorCause::code`]), `SEVERITY` (0 note, 1 warning, 2 error), `WHAT` (0 node,
 /// 1 facet, 2 cell, 3 body, 4 interface, 5 key), `FINDING` and `RANK`, the positions from 0 in the `findings` of `summary.json` and in their
-/// `guilty` lists, where the remark stands, and `TIME`.
+/// `suspects` lists, where the remark stands, and `TIME`.
 ///
 /// # Errors
 /// [`Error::Io`].
@@ -32,17 +32,17 @@ pub(crate) fn write(path: &Path, findings: &[Finding]) -> Result<(), Error> {
     };
     let mut rows: Vec<[f64; 6]> = Vec::new();
     for (i, finding) in shown.take(MOST_SHOWN) {
-        for (rank, guilty) in finding.guilty.iter().enumerate() {
-            let Some(x) = guilty.position else {
+        for (rank, suspects) in finding.suspects.iter().enumerate() {
+            let Some(x) = suspects.position else {
                 continue;
             };
             mesh.points.push(x);
-            let node = guilty.id.filter(|_| guilty.what == LocationKind::Node);
+            let node = suspects.id.filter(|_| suspects.what == LocationKind::Node);
             mesh.point_ids.push(node.unwrap_or(0));
             rows.push([
                 DoctorCause::code(finding.cause) as f64,
                 finding.severity as u8 as f64,
-                guilty.what as u8 as f64,
+                suspects.what as u8 as f64,
                 i as f64,
                 rank as f64,
                 finding.time.unwrap_or(f64::NAN),

@@ -304,12 +304,12 @@ fn with_drivers(finding: Finding, view: &View, trial: &Trial) -> Finding {
         finding.cause,
         DoctorCause::SlidesAway | DoctorCause::FreeRigidMode
     );
-    let mut guilty = finding.guilty.iter();
-    if !moves || guilty.any(|g| g.what == LocationKind::Key) {
+    let mut suspects = finding.suspects.iter();
+    if !moves || suspects.any(|g| g.what == LocationKind::Key) {
         return finding;
     }
-    let mut guilty = finding.guilty.iter();
-    let named = guilty
+    let mut suspects = finding.suspects.iter();
+    let named = suspects
         .find(|g| g.what == LocationKind::Body)
         .map(|g| &g.name);
     let mut bodies = view.model.bodies.iter();
@@ -323,7 +323,7 @@ fn with_drivers(finding: Finding, view: &View, trial: &Trial) -> Finding {
 fn driven(finding: Finding, view: &View, body: usize, trial: &Trial) -> Finding {
     let drivers = drivers::drivers(view, body, trial.to).into_iter();
     let finding = finding.blame_all(drivers.map(|d| Suspect::key(d.key, d.what)));
-    let free: Vec<String> = (finding.guilty.iter())
+    let free: Vec<String> = (finding.suspects.iter())
         .filter(|g| g.what == LocationKind::Body)
         .map(|g| g.name.clone())
         .collect();
@@ -430,7 +430,7 @@ fn not_converged(view: &View, trial: &Trial, evidence: &[&Evidence]) -> Finding 
         .unwrap_or_else(|| DoctorCause::NotConverged.warning(""))
 }
 
-/// The first guilty point at which friction is above the coupling limit: coefficient, limit, point.
+/// The first suspects point at which friction is above the coupling limit: coefficient, limit, point.
 fn beyond_coupling<'a>(view: &View, evidence: &[&'a Evidence]) -> Option<(f64, f64, &'a Evidence)> {
     let found = evidence.iter().take(LOOKED_AT).filter_map(|e| {
         let interfaces = &view.contact.interfaces;

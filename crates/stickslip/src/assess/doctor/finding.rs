@@ -178,7 +178,7 @@ impl fmt::Display for DoctorCause {
 
 stickslip_base::keep_by_name!(DoctorCause, one of DoctorCause::ALL, by |cause| cause.name());
 
-/// Most guilty places of one finding.
+/// Most suspects places of one finding.
 pub const MOST_GUILTY: usize = 10;
 
 /// A finding of the doctor.
@@ -191,8 +191,8 @@ pub struct Finding {
     pub severity: Severity,
     /// In a sentence without a final stop.
     pub message: String,
-    /// Where to look, most guilty first; ten at most.
-    pub guilty: Vec<Suspect>,
+    /// Where to look, most suspects first; ten at most.
+    pub suspects: Vec<Suspect>,
     /// What has been tried.
     #[serde(default)]
     pub tried: Vec<String>,
@@ -214,7 +214,7 @@ impl Finding {
             cause,
             severity,
             message: message.into(),
-            guilty: Vec::new(),
+            suspects: Vec::new(),
             tried: Vec::new(),
             advice: Vec::new(),
             step: None,
@@ -240,9 +240,9 @@ impl Finding {
     }
 
     /// Adds a place, if there is room.
-    pub fn blame(mut self, guilty: Suspect) -> Self {
-        if self.guilty.len() < MOST_GUILTY {
-            self.guilty.push(guilty);
+    pub fn blame(mut self, suspects: Suspect) -> Self {
+        if self.suspects.len() < MOST_GUILTY {
+            self.suspects.push(suspects);
         }
         self
     }
@@ -256,8 +256,8 @@ impl Finding {
     }
 
     /// Adds places, as far as there is room.
-    pub(crate) fn blame_all(self, guilty: impl IntoIterator<Item = Suspect>) -> Self {
-        guilty.into_iter().fold(self, Finding::blame)
+    pub(crate) fn blame_all(self, suspects: impl IntoIterator<Item = Suspect>) -> Self {
+        suspects.into_iter().fold(self, Finding::blame)
     }
 
     /// Adds what to try.
@@ -270,8 +270,8 @@ impl Finding {
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} ({}): {}", self.severity, self.cause, self.message)?;
-        for guilty in &self.guilty {
-            write!(f, "\n  - {guilty}")?;
+        for suspects in &self.suspects {
+            write!(f, "\n  - {suspects}")?;
         }
         for tried in &self.tried {
             write!(f, "\n  tried: {tried}")?;

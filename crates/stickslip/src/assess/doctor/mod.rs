@@ -1,8 +1,8 @@
-//! The doctor: what is wrong with a model or a run, who is guilty, and what to try.
+//! The doctor: what is wrong with a model or a run, who is suspects, and what to try.
 //!
 //! Before the run `examine` looks at the model: motions that nothing can hold, gaps and overlaps, surfaces that do not face each other, meshes
 //! that do not go together, numbers in mixed units. In the run every attempt that fails is turned into a [`Finding`]: the cause is read from what
-//! the points of the interfaces did ([`Evidence`](crate::system::Evidence)), from unconstrained motions, and from the stiffness at the guilty
+//! the points of the interfaces did ([`Evidence`](crate::system::Evidence)), from unconstrained motions, and from the stiffness at the suspects
 //! points. Findings of both kinds are the same type; they go into `summary.json`, and their places into `culprits.vtu`.
 //!
 //! The doctor only looks: nothing here changes a result.

@@ -36,7 +36,7 @@ pub(crate) fn mistake(finding: &Finding, t: f64) -> RunError {
     RunError {
         message: format!("{step}{}", finding.message),
         time: t,
-        culprits: finding.guilty.iter().map(Suspect::to_string).collect(),
+        culprits: finding.suspects.iter().map(Suspect::to_string).collect(),
         help: (!finding.advice.is_empty()).then(|| finding.advice.join("; ")),
     }
 }

@@ -1,4 +1,4 @@
-//! What guilty points show by themselves, and what supports ask of them.
+//! What suspects points show by themselves, and what supports ask of them.
 
 use super::finding::{DoctorCause, Finding};
 use super::suspect::Suspect;
@@ -8,7 +8,7 @@ use crate::math::{Vec3, add_scaled, dot, norm, sub};
 use crate::system::Evidence;
 use crate::time::Trial;
 
-/// What the guilty points show by themselves, the rarest sign first.
+/// What the suspects points show by themselves, the rarest sign first.
 pub(super) fn signs(evidence: &[&Evidence]) -> Option<Finding> {
     let worst = |measure: &dyn Fn(&Evidence) -> f64| {
         let all = evidence.iter().map(|e| (measure(e), *e));

@@ -202,7 +202,8 @@ fn left(view: &View, interface: ContactView, watch: &Watch) -> Option<Finding> {
     // What is thrown may well fly on.
     let finding = DoctorCause::LeftPrimary.warning(format!(
         "interface {name} carries nothing any more after time {}: what carried last has gone over the edge of the primary, and nothing lies opposite",
-        digits(watch.carried_at, 5)))
+        digits(watch.carried_at, 5),
+    ))
     .note_unless(!view.model.moves());
     let finding = Finding {
         time: Some(watch.carried_at),

@@ -143,7 +143,7 @@ pub(crate) fn drivers(scene: &Scene, body: usize, t: f64) -> Vec<Driver> {
     found.sort_by(|a, b| b.1.total_cmp(&a.1));
     let loads = found.into_iter().map(|(key, force)| Driver {
         key,
-        what: format!("pushes with {force}", force = figure(force)),
+        what: format!("pushes with {}", figure(force)),
     });
     let mut drivers: Vec<Driver> = loads.collect();
     if drivers.is_empty() {
@@ -217,7 +217,7 @@ fn movers(scene: &Scene, body: usize, t: f64) -> Vec<Driver> {
             out.push((
                 way,
                 format!("support.{}", support.name),
-                format!("moves by {way}", way = figure(way)),
+                format!("moves by {}", figure(way)),
             ));
         }
     }

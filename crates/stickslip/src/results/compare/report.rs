@@ -1,5 +1,6 @@
-use crate::number::digits;
 use std::fmt;
+
+use crate::number::digits;
 
 /// What became of all checks.
 #[derive(Debug, Clone, PartialEq)]
@@ -90,7 +91,7 @@ impl Comparison {
     fn cells(&self) -> [String; 4] {
         let share = |number: f64, size: f64| match size > 0.0 {
             true => format!("{} rel", digits(number / size, 3)),
-            false => format!("{number} abs", number = digits(number, 3)),
+            false => format!("{} abs", digits(number, 3)),
         };
         let error = self.error().unwrap_or(f64::NAN);
         match self.target {

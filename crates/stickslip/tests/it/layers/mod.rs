@@ -34,6 +34,7 @@ const LIBRARY: &[(&str, &[&[&str]])] = &[
                 "references",
                 "registry",
                 "tolerance",
+                "units",
             ],
             &["linear"],
         ],

@@ -57,7 +57,7 @@ fn far(scene: &Scene, reference: &Reference) -> Option<Finding> {
             nearest = figure(nearest),
             size = figure(size),
         ))
-        .blame(Suspect::key(format!("reference.{name}.point"), format!("{nearest} away", nearest = figure(nearest))).at(centre))
+        .blame(Suspect::key(format!("reference.{name}.point"), format!("{} away", figure(nearest))).at(centre))
         .advise("put the point where the axle is, in the unit of the meshes")
     })
 }

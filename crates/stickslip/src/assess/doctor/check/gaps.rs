@@ -49,7 +49,7 @@ pub(super) fn check(
             .iter()
             .take_while(|(_, g)| *g < -SHALLOW_OVERLAP * size);
         let finding = finding.blame_all(
-            deep.map(|&(i, gap)| secondary(interface, i, format!("gap {gap}", gap = figure(gap)))),
+            deep.map(|&(i, gap)| secondary(interface, i, format!("gap {}", figure(gap)))),
         );
         out.push(match interface.initial.start {
             Start::Ramp => finding
@@ -72,7 +72,7 @@ pub(super) fn check(
                 smallest = figure(smallest),
                 reach = figure(reach),
             ))
-            .blame(secondary(interface, first, format!("gap {smallest}", smallest = figure(smallest))))
+            .blame(secondary(interface, first, format!("gap {}", figure(smallest))))
             .blame(Suspect::interface(&interface.name, "stays open"))
             .advise("move a body by the gap (`body.NAME.translate`), or check the units of its mesh"),
         );

@@ -45,9 +45,13 @@ pub(super) fn strained(model: &Model) -> Vec<Finding> {
         out.push(
             DoctorCause::LargeStrain.warning(format!(
                 "body {name} expands by a strain of {strain}: it is warmer by {rise} at time {t}, and its coefficient of thermal expansion is {}",
-                figure(strain / rise.abs()), strain = figure(strain), rise = digits(rise, 5), t = digits(t, 5)))
+                figure(strain / rise.abs()),
+                strain = figure(strain),
+                rise = digits(rise, 5),
+                t = digits(t, 5),
+            ))
             .blame(Suspect::key(format!("body.{name}.material"), "its `expansion`"))
-            .blame(body(model, name, format!("strain {strain}", strain = figure(strain))))
+            .blame(body(model, name, format!("strain {}", figure(strain))))
             .advise("check the unit of `expansion`: that of steel is 12e-6 per degree, not 12")
             .advise("bodies are linear, with small strains, and results beyond are not to be trusted"),
         );

@@ -65,7 +65,7 @@ fn stiffness(interface: &InterfaceDefinition, largest: f64) -> Option<Finding> {
                 pressure = figure(pressure),
                 depth = figure(depth)
             ),
-            format!("penetration {depth}", depth = figure(depth)),
+            format!("penetration {}", figure(depth)),
         ));
     }
     let ratio = stiffness / beneath;
@@ -79,7 +79,7 @@ fn stiffness(interface: &InterfaceDefinition, largest: f64) -> Option<Finding> {
                 ratio = digits(ratio, 2),
                 pressure = figure(pressure),
             ),
-            format!("stiffness {stiffness}", stiffness = figure(stiffness)),
+            format!("stiffness {}", figure(stiffness)),
         )
         .advise("surfaces that do not penetrate are `normal.unilateral = {}`")
     })

@@ -85,8 +85,8 @@ pub(super) fn check(view: &View, measured: &[Measured]) -> Vec<Finding> {
         return out;
     };
     let interface = &view.contact.interfaces[k];
-    let finding = DoctorCause::InitialGap.warning(format!("bodies that contact has to hold do not touch yet: the smallest gap is {gap}", gap = figure(gap))).note_unless(gap > interface.points[i].size)
-        .blame(secondary(interface, i, format!("gap {gap}", gap = figure(gap))))
+    let finding = DoctorCause::InitialGap.warning(format!("bodies that contact has to hold do not touch yet: the smallest gap is {}", figure(gap))).note_unless(gap > interface.points[i].size)
+        .blame(secondary(interface, i, format!("gap {}", figure(gap))))
         .advise("move the bodies until they touch (`body.NAME.translate`), or prescribe a displacement instead of a force");
     let held = |l: &FloatingBody| l.place(model, "is held by nothing that touches");
     out.push(finding.blame_all(waiting.iter().map(held)));

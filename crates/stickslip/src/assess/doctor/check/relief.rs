@@ -30,11 +30,12 @@ fn aliased(model: &Model, interface: &InterfaceDefinition) -> Option<Finding> {
             shortest = figure(shortest),
             apart = figure(apart),
         ))
-        .blame(Suspect::key(format!("interface.{name}.roughness"), format!("waves of {shortest}", shortest = figure(shortest))))
-        .blame(Suspect::interface(name, format!("points {apart} apart", apart = figure(apart))))
+        .blame(Suspect::key(format!("interface.{name}.roughness"), format!("waves of {}", figure(shortest))))
+        .blame(Suspect::interface(name, format!("points {} apart", figure(apart))))
         .advise(format!(
             "refine the secondary until a wave has several points, {} apart and less, or leave short waves out",
-            digits(0.25 * shortest, 2)))
+            digits(0.25 * shortest, 2),
+        ))
         .advise("what is too short for a mesh is a law of contact: `normal.micro-contact`")
     })
 }

@@ -223,7 +223,10 @@ fn jump(scene: &Scene, acting: &Acting) -> Option<Finding> {
             DoctorCause::SuddenChange.warning(format!(
                 "the amplitude of {what} {name} jumps from {} to {} at time {}: one increment takes all of it, however small increments are, and \
                  friction depends on the way there",
-                w[0][1], w[1][1], digits(w[1][0], 5)))
+                w[0][1],
+                w[1][1],
+                digits(w[1][0], 5),
+            ))
             .note_unless(rubs)
             .blame(acting.amplitude(format!("time {}", digits(w[1][0], 5))))
             .advise("spread the change over a part of the step, or make the step dynamic"),

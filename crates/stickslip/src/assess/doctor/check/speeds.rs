@@ -46,8 +46,8 @@ pub(super) fn fast(scene: &Scene) -> Vec<Finding> {
                     speed = digits(speed, 5),
                     sound = digits(sound, 5),
                 ))
-                .blame(Suspect::key(format!("{what}.{name}"), format!("velocity {speed}", speed = digits(speed, 5))))
-                .blame(body(model, &slowest.name, format!("speed of sound {sound}", sound = digits(sound, 5))))
+                .blame(Suspect::key(format!("{what}.{name}"), format!("velocity {}", digits(speed, 5))))
+                .blame(body(model, &slowest.name, format!("speed of sound {}", digits(sound, 5))))
                 .advise("check the units of velocity, of time, of modulus and of density"),
             );
         }
@@ -161,7 +161,7 @@ pub(super) fn apart(
         ))
         .blame(Suspect::interface(
             &interface.name,
-            format!("gap {gap} at the start", gap = figure(gap)),
+            format!("gap {} at the start", figure(gap)),
         ));
     let sides = sides.iter().flatten();
     let sides = sides.map(|&b| body(model, &model.bodies[b].name, ""));

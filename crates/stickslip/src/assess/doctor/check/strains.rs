@@ -160,7 +160,7 @@ pub(super) fn pressed(
         interface.name,
         depth = figure(depth),
     ))
-    .blame(Suspect::interface(&interface.name, format!("pressed by {depth}", depth = figure(depth))));
+    .blame(Suspect::interface(&interface.name, format!("pressed by {}", figure(depth))));
     let strained = |b: &&Body| whole(model, &b.name, format!("strain about {strain:.2}"));
     Some(found.blame_all(elastic.iter().map(strained)))
 }

@@ -47,7 +47,7 @@ fn too_fast(model: &Model, interface: &InterfaceDefinition) -> Option<Finding> {
                 interface.name,
                 figure(SOFTEST_METAL / young), rate = figure(rate), young = figure(young)))
             .blame(Suspect::key(format!("interface.{}.wear.{kind}", interface.name), figure(rate)))
-            .blame(super::super::places::body(model, &name, format!("modulus {young}", young = figure(young))))
+            .blame(super::super::places::body(model, &name, format!("modulus {}", figure(young))))
             .advise("a coefficient without unit, 1e-7 to 1e-2, is that of `wear.archard-hardness`, with the hardness beside it; that of `wear.archard` is divided by the hardness: 1e-17 to 1e-12 per pascal for metals")
             .advise("mm³/(N m), as tables have it, is 1e-9 per pascal, and 1e-3 per megapascal")
         })

@@ -387,11 +387,11 @@ impl MissingInterface {
     /// Takes note of bodies that pass through others.
     pub fn judge(&mut self, scene: &Scene, findings: &mut Vec<Finding>) {
         for mut finding in self.look(scene) {
-            let both: Vec<&str> = finding.guilty.iter().map(|g| g.name.as_str()).collect();
+            let both: Vec<&str> = finding.suspects.iter().map(|g| g.name.as_str()).collect();
             let known = findings.iter().any(|f| {
                 let same = |g: &Suspect| both.contains(&g.name.as_str());
                 let warned = f.severity >= Severity::Warning;
-                warned && f.cause == finding.cause && f.guilty.iter().all(same)
+                warned && f.cause == finding.cause && f.suspects.iter().all(same)
             });
             if known {
                 continue;
