@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the wheel, installs it into a virtual environment of its own, and runs the Python tests with it. Sets up all it needs.
 #   ci.sh [PROFILE] [write]    PROFILE: dev (the default) or release; write: writes what follows from the schema, the options of `plot` and docstrings
-#                              (written.py), instead of testing
+#                              (written.py), and runs and stores the notebooks, instead of testing
 set -euo pipefail
 cd "$(dirname "$0")"
 profile=${1:-dev}
@@ -21,6 +21,8 @@ fi
 "$venv/bin/maturin" build --profile "$profile" --out "$target/wheels" --quiet "${fast[@]}"
 "$venv/bin/pip" install --quiet --disable-pip-version-check --force-reinstall --no-deps "$target"/wheels/stickslip-*.whl
 if [ "${2:-}" = write ]; then
-    exec "$venv/bin/python" written.py
+    "$venv/bin/python" written.py
+    "$venv/bin/pip" install --quiet --disable-pip-version-check nbclient ipykernel
+    PATH=$venv/bin:$PATH exec "$venv/bin/python" notebooks/store.py
 fi
 PATH=$venv/bin:$PATH "$venv/bin/python" -m pytest --quiet
