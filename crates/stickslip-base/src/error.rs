@@ -111,7 +111,7 @@ pub struct RunError {
     pub message: String,
     /// Time reached `[the problem's unit of time]`.
     pub time: f64,
-    /// The nodes, facets or dofs to look at, most suspects first, one line each.
+    /// The nodes, facets or dofs to look at, most suspect first, one line each.
     pub culprits: Vec<String>,
     /// What to try.
     pub help: Option<String>,

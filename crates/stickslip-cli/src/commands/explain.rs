@@ -288,8 +288,8 @@ fn group(severity: Severity, cause: DoctorCause, all: &[&Finding]) -> String {
     }
     let mut text = format!("{severity}: {cause}, {count}{when}\n");
     text += &print::wrap(&format!("{}.", one.message), 2, WIDTH);
-    for suspects in &one.suspects {
-        text += &item("where", &suspects.to_string());
+    for suspect in &one.suspects {
+        text += &item("where", &suspect.to_string());
     }
     let others = others(one, all);
     if !others.is_empty() {
@@ -314,10 +314,10 @@ fn group(severity: Severity, cause: DoctorCause, all: &[&Finding]) -> String {
 fn others(one: &Finding, all: &[&Finding]) -> Vec<String> {
     let same = |a: &Suspect, b: &Suspect| (a.what, &a.name, a.id) == (b.what, &b.name, b.id);
     let mut found: Vec<&Suspect> = Vec::new();
-    for suspects in all.iter().flat_map(|f| &f.suspects) {
+    for suspect in all.iter().flat_map(|f| &f.suspects) {
         let known = one.suspects.iter().chain(found.iter().copied());
-        if !known.into_iter().any(|k| same(k, suspects)) {
-            found.push(suspects);
+        if !known.into_iter().any(|k| same(k, suspect)) {
+            found.push(suspect);
         }
     }
     let brief = |g: &Suspect| Suspect {

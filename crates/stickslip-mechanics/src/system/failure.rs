@@ -90,7 +90,7 @@ pub struct StepFailure {
     pub cause: Cause,
     /// In a sentence.
     pub message: String,
-    /// Where to look, most suspects first.
+    /// Where to look, most suspect first.
     pub culprits: Vec<Culprit>,
     /// What to try.
     pub help: Option<String>,
@@ -105,7 +105,7 @@ pub struct StepFailure {
 pub struct Otherwise {
     /// In a sentence: which problem, who came how far.
     pub message: String,
-    /// The points that are to blame, most suspects first.
+    /// The points that are to blame, most suspect first.
     pub culprits: Vec<Culprit>,
     /// What to try.
     pub help: String,

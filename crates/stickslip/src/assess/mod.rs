@@ -6,7 +6,6 @@ pub(crate) mod equilibrium;
 pub(crate) mod figures;
 pub(crate) mod gate;
 pub(crate) mod missed;
-pub(crate) mod no_equilibrium;
 pub(crate) mod prestress;
 pub(crate) mod quality;
 pub(crate) mod rotation;

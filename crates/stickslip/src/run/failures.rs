@@ -1,7 +1,7 @@
 //! What is made of attempts that fail: notes for the summary, findings of the doctor, and the error in the end.
 
 use super::parts::{Run, view};
-use crate::assess::{diagnosis, doctor, no_equilibrium, unsupported};
+use crate::assess::{diagnosis, doctor, unsupported};
 use crate::error::{Error, RunError};
 use crate::number::digits;
 use crate::results::summary::FallbackSummary;
@@ -99,7 +99,7 @@ pub(super) fn reject(run: &mut Run, trial: &Trial, failure: &StepFailure) {
 
 /// The error of an increment at the end of which contact cannot balance the loads: to halve it would only find out when.
 pub(super) fn refuse_unbalanced(run: &mut Run, trial: Trial) -> Option<Error> {
-    let (finding, error) = no_equilibrium::refuse_unbalanced(&view!(run), trial.from, trial.to)?;
+    let (finding, error) = doctor::refuse_unbalanced(&view!(run), trial.from, trial.to)?;
     doctor::note(&mut run.summary.findings, finding);
     Some(error.into())
 }

@@ -29,7 +29,7 @@ pub(super) fn prepare_floating(
         );
         run.tell_notes(observers)?;
     }
-    if released::is_to_keep_bodies(&run.solver, &run.model, &run.frame, trial) {
+    if released::is_to_keep_bodies(&run.solver, run.view().scene, trial) {
         flush(run, observers)?;
         follow::keep_bodies(
             &mut run.solver,

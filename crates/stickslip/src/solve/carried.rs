@@ -19,9 +19,6 @@ pub fn carry_anchors(
     trial: Trial,
 ) {
     let floating = &mut solver.floating;
-    let Some((_, bodies)) = &floating.known else {
-        return;
-    };
     let Some(anchors) = &mut floating.anchors else {
         return;
     };
@@ -33,7 +30,7 @@ pub fn carry_anchors(
         .map(|(dof, _)| dof)
         .collect();
     let change = |dof: usize| to.values[dof] - from.values[dof];
-    for (k, free) in bodies.iter().enumerate() {
+    for (k, free) in floating.bodies.free.iter().enumerate() {
         let carried = carried(model, &free.bodies, &prescribed, change);
         let ahead = |p: usize| match &carried {
             Some(u) => model.dofs.vector(u, p),

@@ -1,84 +1,40 @@
 //! Floating bodies are moved until they touch, and stabilised until contact is established.
 
-use super::closure::{close, pushes};
-use super::floating_bodies::{Floating, Origin, no_load};
-use super::rigid_part::rigid_part;
+use super::floating_bodies::Floating;
 use super::solver::Solver;
 use super::work::Work;
-use crate::body::{Anchors, Hold, spread};
-use crate::contact::interface::{Interface, gaps_at};
+use crate::contact::interface::gaps_at;
 use crate::contact::look;
-use crate::math::{dot, norm};
 use crate::model::contact::Contact;
 use crate::model::definition::Model;
 use crate::model::frame::Frame;
-use crate::model::rigid::free_bodies;
+use crate::model::rigid::astray::Origin;
+use crate::model::rigid::closing::close;
+use crate::model::rigid::floating::FloatingBodies;
 use crate::model::rigid::free_bodies::FreeBody;
+use crate::model::rigid::nearest::rigid_part;
 use crate::model::scene::Scene;
 use crate::number::figure;
 use crate::solve::condensed::{candidates, condensing};
-use crate::solve::released;
 use crate::system::{Stage, State};
 use crate::time::Trial;
-use crate::tolerance::NEGLIGIBLE;
 
 /// Finds the bodies that supports leave free and interfaces may hold in the step at hand.
 pub fn find_floating_bodies(solver: &mut Solver, model: &Model, frame: &Frame, contact: &Contact) {
-    if matches!(solver.floating.known, Some((step, _)) if step == frame.step) {
+    if solver.floating.step == Some(frame.step) {
         return;
     }
-    let step = &model.steps[frame.step];
-    let middle = 0.5 * (step.start + step.end);
     let scene = Scene {
         model,
         contact,
         frame,
     };
-    let mut bodies = Vec::new();
-    if model.solution.follow && !contact.interfaces.is_empty() {
-        bodies = free_bodies::free_bodies(&scene, middle);
-    }
-    let active = |i: &&Interface| i.schedule.active(middle);
-    let interfaces: Vec<&Interface> = contact.interfaces.iter().filter(active).collect();
-    let dofs = model.dofs;
-    let mut resisted = false;
-    bodies.retain(|free| {
-        let mut met = false;
-        for interface in &interfaces {
-            for (point, normal) in look::normals(interface) {
-                if free.has(model, point) {
-                    met = true;
-                    resisted |= free.motions.iter().any(|(_, motion)| {
-                        dot(dofs.vector(motion, point), normal).abs() > NEGLIGIBLE
-                    });
-                }
-            }
-        }
-        met
-    });
-    if !resisted {
-        bodies.clear();
-    }
-    let place = |free: &FreeBody| {
-        let each = free.bodies.iter();
-        let each = each.map(|&b| model.bodies[b].points.clone());
-        each.flat_map(|points| spread(&model.mesh, points, dofs.dim + 1))
-            .collect()
-    };
     solver.floating = Floating {
-        places: bodies.iter().map(place).collect(),
-        known: Some((frame.step, bodies)),
+        step: Some(frame.step),
+        bodies: FloatingBodies::find(&scene),
         left: solver.floating.left,
         ..Floating::default()
     };
-    released::find_pushes(
-        &mut solver.floating,
-        Scene {
-            model,
-            contact,
-            frame,
-        },
-    );
 }
 
 /// Whether floating bodies touch nothing yet and are to be moved until they do. Where all loads have gone nothing would move them.
@@ -102,7 +58,12 @@ pub fn has_gaps_to_close(
         let mut all = contact.views_of(contacts).filter(|i| !i.laws.tied);
         all.all(|i| !look::touched(i) || !i.nodes.iter().any(|&n| free.has(model, n)))
     };
-    bodies.iter().any(untouched) && !released::lose_all_loads(floating, model, frame, trial)
+    let scene = Scene {
+        model,
+        contact,
+        frame,
+    };
+    bodies.iter().any(untouched) && !floating.bodies.lose_all_loads(&scene, trial.to)
 }
 
 /// Moves floating bodies that touch nothing yet until they do, and anchors them.
@@ -209,46 +170,17 @@ pub fn anchor(
     trial: Trial,
 ) {
     set_out(solver, frame, contact, trial, false);
-    let external = frame.loads(model, trial.to);
-    let pushes = pushes(model, &external).into_iter();
-    // What draws the parts of a bolt together is no load on the whole of it.
-    let tension = contact.coupled(frame).tension(trial.to);
-    let mut force = pushes.map(|p| norm(p.force)).fold(tension, f64::max);
-    let before = released::pressed(&solver.floating, model, &frame.contact).into_iter();
-    let largest = before.chain(solver.floating.pushed.iter().copied());
-    let largest = largest.fold(0.0, f64::max);
-    if force <= no_load(model) * largest {
-        // What is left of forces that are gone is small beside them.
-        force = largest;
-    }
-    let mut anchors = Anchors::new(model.dofs);
-    let mut names = Vec::new();
+    let scene = Scene {
+        model,
+        contact,
+        frame,
+    };
     let floating = &solver.floating;
-    for (free, points) in floating.bodies().iter().zip(&floating.places) {
-        let (mut spring, mut size) = (0.0_f64, f64::INFINITY);
-        for interface in &contact.interfaces {
-            if interface.nodes.iter().any(|&n| free.has(model, n)) {
-                let (k, h) = interface.typical();
-                spring = spring.max(k);
-                size = size.min(h);
-            }
-        }
-        let hold = Hold {
-            spring,
-            force,
-            // A body may move a quarter of a cell in a round.
-            max_step: 0.25 * size,
-            size,
-            firmness: floating.firmness,
-        };
-        anchors.hold(points.clone(), &frame.state.u, hold);
-        let motions: Vec<&str> = free.motions.iter().map(|(name, _)| name.as_str()).collect();
-        names.push(format!("{} ({})", free.name(model), motions.join(", ")));
-    }
-    solver.log.notes.push(format!(
-        "stabilised until contact was established: {}",
-        names.join("; ")
-    ));
+    let (anchors, held) = floating.bodies.anchors(&scene, trial.to, floating.firmness);
+    solver
+        .log
+        .notes
+        .push(format!("stabilised until contact was established: {held}"));
     solver.floating.anchors = Some(anchors);
     solver.floating.fresh = true;
     candidates::choose_candidates(solver, model, frame, contact);

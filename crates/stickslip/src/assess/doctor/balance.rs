@@ -1,223 +1,222 @@
-//! Whether contact can balance what acts on a body that nothing else holds.
+//! Loads that no forces of contact can balance.
 
 use super::finding::{DoctorCause, Finding};
-use super::friction::friction_coefficient;
 use super::places;
-use super::surfaces::{FACING_COSINE, Opposite};
+use super::released::{Gone, let_go};
 use super::suspect::Suspect;
 use crate::assess::view::View;
-use crate::contact::interface::Primary;
-use crate::math::{Vec3, add, add_scaled, dot, norm, normalize, scale, vector};
-use crate::model::definition::Body;
-use crate::model::rigid::modes::modes;
-use crate::model::scene::Scene;
-use crate::number::figure;
-use crate::tolerance::{NEGLIGIBLE, SAME};
+use crate::error::RunError;
+use crate::math::vector;
+use crate::model::rigid::balance::{Balance, EXACT_REST, UNMOVED};
+use crate::model::rigid::drivers;
+use crate::model::rigid::drivers::named;
+use crate::model::rigid::held::{NO_PART, Unheld};
+use crate::number::digits;
 
-/// Directions in which contact can push one body.
-#[derive(Default)]
-struct Push {
-    directions: Vec<Vec3>,
-    /// Largest coefficient of friction; `None` where a limit does not depend on pressure.
-    friction: Option<f64>,
-    interface: String,
+/// Part by which friction is widened, as points move and surfaces bend a little, or narrowed where loads that come to its limit are looked for. Tuned.
+const FRICTION_MARGIN: f64 = 1e-3;
+
+/// Halvings by which a time is found.
+const HALVINGS: usize = 20;
+
+/// What ends a quasi-static step, or an attempt that failed, from one time to another: at its end no forces of contact can balance the loads.
+pub(crate) fn refuse_unbalanced(view: &View, from: f64, to: f64) -> Option<(Finding, RunError)> {
+    let balance = Balance::new(view, to)?;
+    let at_end = balance.loads(view, to);
+    // Of the loads twice the margin may be left, for the same reason.
+    let rest = balance.rest(
+        &at_end,
+        |mu| mu * (1.0 + FRICTION_MARGIN) + FRICTION_MARGIN,
+        2.0 * FRICTION_MARGIN,
+    )?;
+    let (mut good, mut bad) = (from, to);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (good + bad);
+        match balance.rest(&balance.loads(view, middle), |mu| mu, EXACT_REST) {
+            None => good = middle,
+            Some(_) => bad = middle,
+        }
+    }
+    if bad - from < UNMOVED * (to - from) {
+        bad = from;
+    }
+    let unbalanced = Unbalanced::new(view, &balance, &rest, to);
+    let when = match bad > view.frame.state.t {
+        true => format!(" from {} on", digits(bad, 6)),
+        false => String::new(),
+    };
+    Some(unbalanced.refuse(&when))
 }
 
-/// Bodies without supports, springs and couplings to others on which the loads at time `t` and contact cannot be in balance.
+/// Free bodies that contact cannot hold at a time: loads that it cannot balance, or none while it pushes bodies away.
 pub(super) fn unbalanced(view: &View, t: f64) -> Option<Finding> {
-    beyond(view, t, NEGLIGIBLE)
+    beyond(view, t, 0.0)
 }
 
 /// The same of loads that come to the limit of friction, where nothing is left to hold a body.
 pub(super) fn at_limit(view: &View, t: f64) -> Option<Finding> {
-    beyond(view, t, -NEGLIGIBLE)
+    beyond(view, t, FRICTION_MARGIN)
 }
 
-fn beyond(view: &View, t: f64, slight: f64) -> Option<Finding> {
-    let model = view.model;
-    let held = view.constraints(t).fixed;
-    let loads = view.loads(t);
-    let scale_of_loads = vector::norm(&loads);
-    let modes = modes(model);
-    let couplings = view.couplings();
-    let rows: Vec<_> = couplings.acting(t).chain(couplings.stops(t)).collect();
-    for (index, body) in model.bodies.iter().enumerate() {
-        let mut dofs: Vec<usize> =
-            (model.dofs.of(body.points.start, 0)..model.dofs.of(body.points.end, 0)).collect();
-        if let Some(rigid) = body.rigid {
-            // Its points are no unknowns; what is supported or loaded is the body itself.
-            let link = &model.links.all()[rigid.link];
-            dofs = link.motions(model.dofs).iter().map(|m| m.0).collect();
-        }
-        // What holds or loads a reference point that is tied to it does so to the body.
-        let own = model.references.iter().filter(|r| r.body == Some(index));
-        let own = own.map(|r| &model.links.all()[r.link]);
-        dofs.extend(own.flat_map(|link| link.motions(model.dofs)).map(|m| m.0));
-        let sprung = model.actions.springs.iter().flat_map(|s| s.entries());
-        let sprung = sprung
-            .into_iter()
-            .any(|(dof, k)| *k > 0.0 && dofs.contains(dof));
-        let own = modes.iter().filter(|m| m.body == index);
-        let coupled = own
-            .into_iter()
-            .any(|m| rows.iter().any(|row| m.along(model, row).abs() > SAME));
-        if sprung || coupled || dofs.iter().any(|&dof| held[dof]) {
-            continue;
-        }
-        let Some(push) = push(view, body, t) else {
-            continue;
-        };
-        let mut force = [0.0; 3];
-        for &dof in &dofs {
-            let (point, component) = model.dofs.locate(dof);
-            if !model.links.turns(point) {
-                force[component] += loads[dof];
-            }
-        }
-        let sum = push.directions.iter().fold([0.0; 3], |s, d| add(s, *d));
-        let Some(mean) = normalize(sum) else {
-            continue;
-        };
-        let narrowest = push.directions.iter().map(|d| dot(*d, mean));
-        let narrowest = narrowest.fold(f64::INFINITY, f64::min);
-        let found = judge(
-            &body.name,
-            &push,
-            mean,
-            narrowest,
-            force,
-            SAME * scale_of_loads,
-            slight,
-        );
-        if let Some((cause, message)) = found {
-            let finding = cause
-                .warning(message)
-                .blame(places::body(model, &body.name, "held by contact alone"))
-                .blame(Suspect::interface(&push.interface, ""));
-            return Some(match cause {
-                DoctorCause::FreeRigidMode => {
-                    finding.advise("support the body on its other side, or hold it by springs")
-                }
-                _ => finding
-                    .advise("no equilibrium exists: lower the load, raise friction or support the motion")
-                    .advise("make the step dynamic if the body is meant to take off"),
-            });
-        }
+/// Of friction this part is not counted on.
+fn beyond(view: &View, t: f64, margin: f64) -> Option<Finding> {
+    let balance = Balance::new(view, t)?;
+    let loads = balance.loads(view, t);
+    if vector::norm(&loads) == 0.0 {
+        let one_sided = balance.close && balance.is_one_sided();
+        return one_sided.then(|| pushed_away(view, &balance));
     }
-    None
+    let rest = balance.rest(&loads, |mu| mu * (1.0 - margin), EXACT_REST)?;
+    Some(Unbalanced::new(view, &balance, &rest, t).warn())
 }
 
-/// Why a body cannot be in balance, given the mean direction in which contact pushes and the smallest cosine to it.
-fn judge(
-    name: &str,
-    push: &Push,
-    mean: Vec3,
-    narrowest: f64,
-    force: Vec3,
-    nothing: f64,
-    slight: f64,
-) -> Option<(DoctorCause, String)> {
-    let mu = push.friction?;
-    if norm(force) <= nothing {
-        // What pushes back along the mean direction is friction at most.
-        return (narrowest > mu / (1.0 + mu * mu).sqrt()).then(|| {
-            (
-                DoctorCause::FreeRigidMode,
-                format!(
-                    "contact pushes body {name} away and nothing pushes back: no support, no spring and no load holds it"
+/// Bodies that contact pushes away while no load presses them against it.
+fn pushed_away(view: &View, balance: &Balance) -> Finding {
+    let described = balance.motions.iter();
+    let described = described.map(|m| drivers::describe(view, &balance.all, m));
+    let mut bodies: Vec<String> = described.map(|(body, _)| body).collect();
+    bodies.dedup();
+    let name = bodies.first().cloned().unwrap_or_default();
+    let places = bodies.iter();
+    let places = places.map(|b| places::body(view.model, b, "held by contact alone"));
+    DoctorCause::FreeRigidMode
+        .warning(format!(
+            "contact pushes body {name} away and nothing pushes back: no support, no spring and no load holds it"
+        ))
+        .blame_all(places)
+        .advise("support the body on its other side, or hold it by springs")
+}
+
+/// Loads that contact cannot balance, and the motion that they drive.
+struct Unbalanced<'a> {
+    view: &'a View<'a>,
+    motion: Unheld,
+    push: drivers::Push,
+    /// The body that moves the most, and how it moves.
+    body: String,
+    what: String,
+    touches: bool,
+    /// No friction would keep it from turning.
+    tips: bool,
+    /// What friction would hold it, for a sentence.
+    friction: String,
+    all: &'a Balance,
+}
+
+impl<'a> Unbalanced<'a> {
+    fn new(view: &'a View<'a>, balance: &'a Balance, rest: &[f64], t: f64) -> Self {
+        let motion = balance.driven(rest);
+        let (body, what) = drivers::describe(view, &balance.all, &motion);
+        let index = view.model.bodies.iter().position(|b| b.name == body);
+        let wanted = balance.least_friction(&balance.loads(view, t));
+        // What no friction would hold, and turns, is pressed beside what it lies on.
+        let mut moving = (balance.all.iter().zip(&motion)).filter(|(_, part)| part.abs() > NO_PART);
+        let turns = moving.any(|(mode, _)| mode.name.starts_with("rotation"));
+        Unbalanced {
+            push: drivers::push(view, &balance.all, &motion, t),
+            touches: balance.close || index.is_some_and(|b| view.touches(b)),
+            tips: wanted.is_none() && turns,
+            friction: match wanted {
+                Some(mu) => format!(
+                    "friction of {mu:.4} would hold it, {:.4} is the largest there is",
+                    balance.mu
                 ),
-            )
-        });
+                None => "no friction would hold it".to_string(),
+            },
+            view,
+            motion,
+            body,
+            what,
+            all: balance,
+        }
     }
-    // The surface is flat if no contact normal differs from their mean by more than acos(0.999), 2.6 degrees.
-    if narrowest < 0.999 {
-        return None;
-    }
-    let pressing = -dot(force, mean);
-    let along = norm(add_scaled(force, pressing, mean));
-    if pressing < -nothing {
-        return Some((
-            DoctorCause::SlidesAway,
-            format!(
-                "the loads pull body {name} off what it lies on, by {}",
-                figure(-pressing)
-            ),
-        ));
-    }
-    (along > (1.0 + slight) * mu * pressing + nothing).then(|| {
-        (
-            DoctorCause::SlidesAway,
-            format!(
-                "body {name} slides away: the loads push it along its contact by {along}, and friction resists {} at most",
-                figure(mu * pressing),
-                along = figure(along),
-            ),
-        )
-    })
-}
 
-/// How contact can push a body; `None` if it cannot, or does more than push.
-fn push(scene: &Scene, body: &Body, t: f64) -> Option<Push> {
-    let mut push = Push {
-        friction: Some(0.0),
-        ..Push::default()
-    };
-    for interface in &scene.contact.interfaces {
-        if !interface.schedule.active(t) {
-            continue;
-        }
-        let within = |local: usize| body.points.contains(&interface.nodes[local]);
-        let ours = interface.points.iter().any(|p| within(p.nodes[0]));
-        let theirs = match &interface.primary {
-            Primary::Facets(facets) => facets.iter().any(|f| within(f.nodes[0])),
-            Primary::Rigid(..) => false,
+    fn sentence(&self, when: &str) -> String {
+        let Unbalanced { body, what, .. } = self;
+        let moves = match self.touches {
+            true if self.tips => format!("body {body} tips over or lifts off as a whole ({what})"),
+            true => format!("body {body} slides, rolls or lifts off as a whole ({what})"),
+            false => format!("body {body} is free to move as a rigid body ({what})"),
         };
-        if !ours && !theirs {
-            continue;
+        format!(
+            "{}: there is no equilibrium{when}: {moves}, {} it, and contact and friction cannot balance that; {}",
+            self.view.called(),
+            named(&self.push.drivers(), "drives", "drive"),
+            self.friction
+        )
+    }
+
+    fn cause(&self) -> DoctorCause {
+        match self.touches {
+            true => DoctorCause::SlidesAway,
+            false => DoctorCause::FreeRigidMode,
         }
-        // What is glued to another body is one with it, and pulled as well as pushed.
-        if interface.laws.tied {
-            return None;
-        }
-        let sign = if ours { 1.0 } else { -1.0 };
-        let mut opposite = Opposite::new(interface, t);
-        for p in &interface.points {
-            let Some(nearest) = opposite.nearest(p.position(&interface.reference)) else {
-                continue;
-            };
-            if dot(nearest.normal, p.normal) < FACING_COSINE {
-                push.directions.push(scale(sign, nearest.normal));
+    }
+
+    /// What to do.
+    fn help(&self) -> &'static str {
+        match self.touches {
+            true if self.tips => {
+                "let the loads press within what the body lies on, or that reach farther, support the motion or hold it by weak springs (`[load.NAME] spring = { stiffness = [...] }`), \
+                 or make the step dynamic if the body is meant to tip"
+            }
+            true => {
+                "lower what drives the body, raise friction, support the motion or hold it by weak springs (`[load.NAME] spring = { stiffness = [...] }`), \
+                 or make the step dynamic if the body is meant to slide or take off"
+            }
+            false => {
+                "support these motions, hold them by weak springs (`[load.NAME] spring = { stiffness = [...] }`), or move the bodies until they touch"
             }
         }
-        push.interface.clone_from(&interface.name);
-        let frictional = interface.laws.friction_law().frictional();
-        push.friction = match (push.friction, friction_coefficient(interface)) {
-            (Some(a), Some(b)) => Some(a.max(b)),
-            (before, None) if !frictional => before,
-            _ => None,
-        };
     }
-    (!push.directions.is_empty()).then_some(push)
-}
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+    /// Supports and loads of the step before that held the bodies.
+    fn gone(&self) -> Vec<Gone> {
+        let moved = self.all.all.iter().zip(&self.motion);
+        let moved = moved.filter(|(_, part)| part.abs() > NO_PART);
+        let name = |body: usize| self.view.model.bodies[body].name.clone();
+        let moved: Vec<String> = moved.map(|(mode, _)| name(mode.body)).collect();
+        let_go(self.view, &moved)
+    }
 
-    #[test]
-    fn friction_holds_a_block_up_to_its_limit() {
-        let push = Push {
-            friction: Some(0.3),
-            ..Push::default()
+    /// The finding with the bodies, what drives them, and what held them before.
+    fn blamed(&self, finding: Finding) -> Finding {
+        let remark = format!("{} is held by contact alone", self.what);
+        let drivers = self.push.drivers().into_iter();
+        finding
+            .blame(places::body(self.view.model, &self.body, remark))
+            .blame_all(drivers.map(|d| Suspect::key(d.key, d.what)))
+            .blame_all((self.gone().into_iter()).map(|g| Suspect::key(g.key, g.what)))
+    }
+
+    /// A finding before the run, or of an attempt.
+    fn warn(&self) -> Finding {
+        let finding = self.blamed(self.cause().warning(self.sentence("")));
+        let gone = self.gone().into_iter().map(|g| g.advice);
+        let finding = gone.fold(finding, Finding::advise);
+        finding.advise(self.help())
+    }
+
+    /// The error that ends a step, with its finding.
+    fn refuse(&self, when: &str) -> (Finding, RunError) {
+        let message = self.sentence(when);
+        let gone: String = (self.gone().iter())
+            .map(|g| format!("{}; ", g.advice))
+            .collect();
+        let help = format!("{gone}{}", self.help());
+        let time = self.view.frame.state.t;
+        let finding = self.blamed(self.cause().error(message.clone()));
+        let error = RunError {
+            message,
+            time,
+            culprits: finding.suspects.iter().map(Suspect::to_string).collect(),
+            help: Some(help.clone()),
         };
-        let up = [0.0, 1.0, 0.0];
-        let cause =
-            |force: Vec3| judge("block", &push, up, 1.0, force, 1e-9, NEGLIGIBLE).map(|f| f.0);
-        assert_eq!(cause([0.29, -1.0, 0.0]), None);
-        assert_eq!(cause([0.31, -1.0, 0.0]), Some(DoctorCause::SlidesAway));
-        assert_eq!(cause([0.0, 0.1, 0.0]), Some(DoctorCause::SlidesAway));
-        assert_eq!(cause([0.0; 3]), Some(DoctorCause::FreeRigidMode));
-        // A seat that holds from both sides.
-        assert!(judge("pin", &push, up, -0.2, [0.0; 3], 1e-9, NEGLIGIBLE).is_none());
+        let finding = Finding {
+            step: Some(self.view.step_name().to_string()),
+            time: Some(time),
+            ..finding.advise(help)
+        };
+        (finding, error)
     }
 }

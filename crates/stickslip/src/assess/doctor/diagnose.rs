@@ -4,14 +4,15 @@ use super::finding::{DoctorCause, Finding};
 use super::friction::friction_coefficient;
 use super::motions::{FloatingBody, Row, floating, rows};
 use super::record::Counters;
+use super::released::let_go;
 use super::signs::{prescribed_slip, signs, too_large_slip};
-use super::surfaces::Opposite;
 use super::suspect::{LocationKind, Severity, Suspect};
 use super::{balance, check, coupling, places};
 use crate::assess::view::View;
 use crate::body::Formulation;
 use crate::contact::interface::ContactView;
 use crate::contact::look;
+use crate::contact::look::Opposite;
 use crate::contact::response::Status;
 use crate::error::RunError;
 use crate::math::Vec3;
@@ -327,7 +328,7 @@ fn driven(finding: Finding, view: &View, body: usize, trial: &Trial) -> Finding 
         .filter(|g| g.what == LocationKind::Body)
         .map(|g| g.name.clone())
         .collect();
-    let gone = check::let_go(view, &free).into_iter();
+    let gone = let_go(view, &free).into_iter();
     gone.fold(finding, |f, gone| {
         f.blame(Suspect::key(gone.key, gone.what))
             .advise(gone.advice)
@@ -430,7 +431,7 @@ fn not_converged(view: &View, trial: &Trial, evidence: &[&Evidence]) -> Finding 
         .unwrap_or_else(|| DoctorCause::NotConverged.warning(""))
 }
 
-/// The first suspects point at which friction is above the coupling limit: coefficient, limit, point.
+/// The first suspect point at which friction is above the coupling limit: coefficient, limit, point.
 fn beyond_coupling<'a>(view: &View, evidence: &[&'a Evidence]) -> Option<(f64, f64, &'a Evidence)> {
     let found = evidence.iter().take(LOOKED_AT).filter_map(|e| {
         let interfaces = &view.contact.interfaces;

@@ -178,8 +178,8 @@ impl fmt::Display for DoctorCause {
 
 stickslip_base::keep_by_name!(DoctorCause, one of DoctorCause::ALL, by |cause| cause.name());
 
-/// Most suspects places of one finding.
-pub const MOST_GUILTY: usize = 10;
+/// Most places of one finding.
+pub const MOST_SUSPECTS: usize = 10;
 
 /// A finding of the doctor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, crate::keep::Keep)]
@@ -191,7 +191,7 @@ pub struct Finding {
     pub severity: Severity,
     /// In a sentence without a final stop.
     pub message: String,
-    /// Where to look, most suspects first; ten at most.
+    /// Where to look, most suspect first; ten at most.
     pub suspects: Vec<Suspect>,
     /// What has been tried.
     #[serde(default)]
@@ -240,9 +240,9 @@ impl Finding {
     }
 
     /// Adds a place, if there is room.
-    pub fn blame(mut self, suspects: Suspect) -> Self {
-        if self.suspects.len() < MOST_GUILTY {
-            self.suspects.push(suspects);
+    pub fn blame(mut self, suspect: Suspect) -> Self {
+        if self.suspects.len() < MOST_SUSPECTS {
+            self.suspects.push(suspect);
         }
         self
     }
@@ -270,8 +270,8 @@ impl Finding {
 impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} ({}): {}", self.severity, self.cause, self.message)?;
-        for suspects in &self.suspects {
-            write!(f, "\n  - {suspects}")?;
+        for suspect in &self.suspects {
+            write!(f, "\n  - {suspect}")?;
         }
         for tried in &self.tried {
             write!(f, "\n  tried: {tried}")?;

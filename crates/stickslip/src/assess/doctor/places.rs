@@ -18,13 +18,13 @@ pub(super) fn bounds(points: &[Vec3]) -> (Vec3, Vec3) {
 
 /// A body as a place: the centre of its box.
 pub(crate) fn body(model: &Model, name: &str, remark: impl Into<String>) -> Suspect {
-    let suspects = Suspect::body(name, remark);
+    let suspect = Suspect::body(name, remark);
     match model.bodies.iter().find(|b| b.name == name) {
         Some(body) => {
             let (low, high) = bounds(&model.mesh.points[body.points.clone()]);
-            suspects.at(std::array::from_fn(|c| 0.5 * (low[c] + high[c])))
+            suspect.at(std::array::from_fn(|c| 0.5 * (low[c] + high[c])))
         }
-        None => suspects,
+        None => suspect,
     }
 }
 

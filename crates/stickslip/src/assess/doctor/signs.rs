@@ -1,4 +1,4 @@
-//! What suspects points show by themselves, and what supports ask of them.
+//! What suspect points show by themselves, and what supports ask of them.
 
 use super::finding::{DoctorCause, Finding};
 use super::suspect::Suspect;
@@ -8,7 +8,7 @@ use crate::math::{Vec3, add_scaled, dot, norm, sub};
 use crate::system::Evidence;
 use crate::time::Trial;
 
-/// What the suspects points show by themselves, the rarest sign first.
+/// What the suspect points show by themselves, the rarest sign first.
 pub(super) fn signs(evidence: &[&Evidence]) -> Option<Finding> {
     let worst = |measure: &dyn Fn(&Evidence) -> f64| {
         let all = evidence.iter().map(|e| (measure(e), *e));
@@ -95,7 +95,7 @@ pub(super) fn prescribed_slip(view: &View, trial: &Trial) -> Option<(f64, String
         let theirs = moved(*facet.nodes.first()?, interface)?;
         let slip = sub(ours, theirs);
         let along = add_scaled(slip, -dot(slip, point.normal), point.normal);
-        let size = super::surfaces::spacing(interface, facet);
+        let size = crate::contact::surface::spacing(facet, &interface.reference);
         Some((norm(along) / size, interface.name.clone()))
     });
     let largest = slips.max_by(|a, b| a.0.total_cmp(&b.0));

@@ -33,7 +33,7 @@ impl fmt::Display for Severity {
     }
 }
 
-/// What kind of thing is suspects.
+/// What kind of thing is suspect.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, Serialize, Deserialize, Keep)]
 #[serde(rename_all = "kebab-case")]
 pub enum LocationKind {

@@ -49,6 +49,24 @@ impl Resisted<'_> {
         self.row(&own, 1.0);
     }
 
+    /// A sum of displacements with factors.
+    fn sum(&mut self, terms: impl Iterator<Item = (usize, f64)>) {
+        let terms: Vec<_> = terms.collect();
+        let rate = |m: &Mode| {
+            terms
+                .iter()
+                .map(|&(dof, a)| a * m.at(self.model, dof))
+                .sum()
+        };
+        let values: Vec<(usize, f64)> = self.modes.iter().map(rate).enumerate().collect();
+        self.row(&values, 1.0);
+    }
+
+    /// The motions that it leaves free, with simple names.
+    fn free(&self) -> Vec<Unheld> {
+        plain(null_space(&self.gram, NO_RESISTANCE).0)
+    }
+
     /// Contact along `directions` at the points of an interface, as if all of them had come to touch.
     pub fn interface(&mut self, interface: &Interface, directions: &[Vec3]) {
         let model = self.model;
@@ -85,10 +103,47 @@ impl Resisted<'_> {
 /// the most is believed: that every point of a secondary meets what it faces, that gaps of couplings close, and that friction is as large as need be.
 /// Tied surfaces count without contact too.
 pub(crate) fn unheld(scene: &Scene, t: f64, modes: &[Mode], contact: bool) -> Vec<Unheld> {
+    let Some(mut resisted) = without_contact(scene, t, modes) else {
+        return Vec::new();
+    };
+    let couplings = scene.couplings();
+    for row in couplings.stops(t).filter(|_| contact) {
+        resisted.sum(row.terms());
+    }
+    let acting = scene
+        .contact
+        .interfaces
+        .iter()
+        .filter(|i| i.schedule.active(t));
+    for interface in acting.filter(|i| contact || i.laws.tied) {
+        let directions = directions(interface, t);
+        resisted.interface(interface, &directions);
+    }
+    resisted.free()
+}
+
+/// Motions that neither supports, springs and couplings at `t` hold nor `rows`, linear functions of the displacements by dof.
+pub(crate) fn unheld_beside(
+    scene: &Scene,
+    t: f64,
+    modes: &[Mode],
+    rows: &[Vec<(usize, f64)>],
+) -> Vec<Unheld> {
+    let Some(mut resisted) = without_contact(scene, t, modes) else {
+        return Vec::new();
+    };
+    for row in rows {
+        resisted.sum(row.iter().copied());
+    }
+    resisted.free()
+}
+
+/// What supports, springs and couplings resist; `None` where there are no motions, or too many.
+fn without_contact<'a>(scene: &Scene<'a>, t: f64, modes: &'a [Mode]) -> Option<Resisted<'a>> {
     let model = scene.model;
     let count = modes.len();
     if count == 0 || count > MOST_MODES {
-        return Vec::new();
+        return None;
     }
     let mut resisted = Resisted {
         model,
@@ -103,26 +158,10 @@ pub(crate) fn unheld(scene: &Scene, t: f64, modes: &[Mode], contact: bool) -> Ve
             resisted.dof(dof);
         }
     }
-    let couplings = scene.couplings();
-    let stops = couplings.stops(t).filter(|_| contact);
-    for row in couplings.acting(t).chain(stops) {
-        let values: Vec<_> = modes
-            .iter()
-            .map(|m| m.along(model, row))
-            .enumerate()
-            .collect();
-        resisted.row(&values, 1.0);
+    for row in scene.couplings().acting(t) {
+        resisted.sum(row.terms());
     }
-    let acting = scene
-        .contact
-        .interfaces
-        .iter()
-        .filter(|i| i.schedule.active(t));
-    for interface in acting.filter(|i| contact || i.laws.tied) {
-        let directions = directions(interface, t);
-        resisted.interface(interface, &directions);
-    }
-    plain(null_space(&resisted.gram, NO_RESISTANCE).0)
+    Some(resisted)
 }
 
 /// Directions in which an interface may resist: all where it sticks or is tied, else those of its normals.

@@ -5,7 +5,11 @@
 //! [`null_space`].
 
 pub(crate) mod anchors;
+pub(crate) mod astray;
+pub(crate) mod balance;
+pub(crate) mod closing;
 pub(crate) mod drivers;
+pub(crate) mod floating;
 pub(crate) mod free_bodies;
 pub(crate) mod held;
 pub(crate) mod modes;

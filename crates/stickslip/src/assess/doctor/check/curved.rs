@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 
 use super::super::finding::{DoctorCause, Finding};
-use super::super::surfaces::{Opposite, coordinates, spacing};
 use super::super::suspect::Suspect;
 use super::common::{median, roles, sides};
 use crate::contact::facet_point::evaluate;
 use crate::contact::interface::{InterfaceDefinition, Primary};
+use crate::contact::look::{Opposite, coordinates};
+use crate::contact::surface::spacing;
 use crate::contact::surface::{EDGE_ANGLE, Facet, edges};
 use crate::math::{Vec3, add, dot, norm, normalize, scale, sub};
 use crate::model::definition::Model;
@@ -91,7 +92,7 @@ fn across(
         Some(best) => (nearest.distance, best.spacing, best.curvature),
         None => (
             nearest.distance,
-            spacing(interface, &facets[nearest.facet]),
+            spacing(&facets[nearest.facet], &interface.reference),
             0.0,
         ),
     })

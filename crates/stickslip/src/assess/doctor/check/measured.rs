@@ -1,7 +1,8 @@
 //! What is measured of an interface once for all rules.
 
-use super::super::surfaces::{Opposite, spacing};
 use crate::contact::interface::InterfaceDefinition;
+use crate::contact::look::Opposite;
+use crate::contact::surface::spacing;
 use crate::math::Vec3;
 
 /// What is measured once for all rules, by interface.
@@ -28,7 +29,7 @@ pub(super) fn measure(interface: &InterfaceDefinition, gaps: &[f64], t: f64) -> 
     let nearest = interface.points.iter().map(|p| {
         let nearest = opposite.nearest(p.position(&interface.reference))?;
         let facet = match &interface.primary {
-            Primary::Facets(facets) => Some(spacing(interface, &facets[nearest.facet])),
+            Primary::Facets(facets) => Some(spacing(&facets[nearest.facet], &interface.reference)),
             Primary::Rigid(..) => None,
         };
         Some(Beside {

@@ -16,7 +16,6 @@ mod measured;
 mod meshes;
 mod motions;
 mod normals;
-mod released;
 mod relief;
 mod schedules;
 mod speeds;
@@ -31,14 +30,13 @@ mod wear;
 
 pub use curved::WIDEST_CONTACT;
 pub(super) use meshes::disconnected;
-pub(crate) use released::let_go;
 pub(crate) use wear::longest_way;
 
 use super::finding::Finding;
-use super::surfaces::Opposite;
 use super::unjoined::MissingInterface;
 use crate::assess::view::View;
 use crate::contact::look;
+use crate::contact::look::Opposite;
 use crate::model::definition::Model;
 use crate::model::scene::Scene;
 use measured::{Measured, measure};
@@ -81,7 +79,7 @@ pub(crate) fn examine(view: &View, unjoined: &MissingInterface, gaps: &[Vec<f64>
     }
     out.extend(conditions::check(view, &measured));
     out.extend(schedules::check(view));
-    out.extend(released::check(view));
+    out.extend(super::released::check(view));
     out.extend(bolts::check(view));
     out.extend(axles::check(view));
     out.extend(heat::check(model));

@@ -2,12 +2,12 @@
 
 use super::super::finding::{DoctorCause, Finding};
 use super::super::places::{body as whole, secondary};
-use super::super::surfaces::FACING_COSINE;
 use super::super::suspect::{LocationKind, Suspect};
 use super::common::{roles, sides};
 use super::measured::Measured;
 use crate::assess::view::View;
 use crate::contact::interface::{InterfaceDefinition, Primary};
+use crate::contact::look::FACING_COSINE;
 use crate::math::dot;
 use crate::number::figure;
 
@@ -50,7 +50,7 @@ pub(super) fn check(
         if let Primary::Facets(facets) = &interface.primary
             && let Some(facet) = facets.first()
         {
-            let x = super::super::surfaces::coordinates(interface, facet);
+            let x = crate::contact::look::coordinates(interface, facet);
             finding = finding.blame(
                 Suspect {
                     what: LocationKind::Facet,
@@ -110,7 +110,7 @@ fn inside_out(view: &View, interface: &InterfaceDefinition, ours: &str) -> Optio
         return None;
     }
     let body = model.bodies.iter().find(|b| b.name == ours)?;
-    let mut opposite = super::super::surfaces::Opposite::new(interface, view.frame.state.t);
+    let mut opposite = crate::contact::look::Opposite::new(interface, view.frame.state.t);
     let points = &model.mesh.points[body.points.clone()];
     let inside = points.iter().filter(|x| {
         let nearest = opposite.nearest(**x);

@@ -1,11 +1,11 @@
 //! Heights of rough surfaces that contact points cannot show, or that are as steep as no surface that first order holds for.
 
 use super::super::finding::{DoctorCause, Finding};
-use super::super::surfaces::spacing;
 use super::super::suspect::Suspect;
 use super::common::median;
 use super::strains::LARGE_STRAIN;
 use crate::contact::interface::InterfaceDefinition;
+use crate::contact::surface::spacing;
 use crate::math::distance;
 use crate::model::definition::Model;
 use crate::number::{digits, figure};
@@ -20,7 +20,10 @@ pub(super) fn check(model: &Model, interface: &InterfaceDefinition) -> Option<Fi
 /// Waves that are shorter than two distances of points.
 fn aliased(model: &Model, interface: &InterfaceDefinition) -> Option<Finding> {
     let waves = model.waves.iter().find(|w| w.0 == interface.name)?;
-    let facets = interface.skin.iter().map(|s| spacing(interface, &s.facet));
+    let facets = interface
+        .skin
+        .iter()
+        .map(|s| spacing(&s.facet, &interface.reference));
     let apart = median(facets.collect());
     let (name, shortest) = (&interface.name, waves.1);
     // A wave needs two points at the least to be told from a longer one (Nyquist).

@@ -38,7 +38,7 @@ fn surfaces<'a>(model: &'a Model, interface: &InterfaceDefinition) -> Vec<Surfac
     if let Primary::Facets(facets) = &interface.primary {
         let mut normals: BTreeMap<usize, Vec3> = Default::default();
         for facet in facets {
-            let x = super::super::surfaces::coordinates(interface, facet);
+            let x = crate::contact::look::coordinates(interface, facet);
             let normal = evaluate(facet.kind, &x, [0.0; 2]).normal;
             for &n in &facet.nodes {
                 normals.entry(interface.nodes[n]).or_insert(normal);

@@ -2,12 +2,12 @@
 
 use super::super::finding::{DoctorCause, Finding};
 use super::super::places::body;
-use super::super::surfaces::Opposite;
 use super::super::suspect::Suspect;
 use super::curved::rest;
 use super::driven::{meets_others, pair};
 use crate::assess::view::View;
 use crate::contact::interface::InterfaceDefinition;
+use crate::contact::look::Opposite;
 use crate::math::{dot, norm, scale, sub};
 use crate::number::figure;
 

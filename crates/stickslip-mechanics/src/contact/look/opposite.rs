@@ -1,7 +1,7 @@
 //! How the two sides of an interface lie to each other, apart from any law.
 
+use super::super::interface::{InterfaceDefinition, Primary};
 use crate::contact::facet_point::evaluate;
-use crate::contact::interface::{InterfaceDefinition, Primary};
 use crate::contact::projection::{Patch, facet_distance};
 use crate::contact::search::Tree;
 use crate::contact::surface::Facet;
@@ -10,11 +10,11 @@ use crate::shape::ElementKind;
 use crate::tolerance::NEGLIGIBLE;
 
 /// Cosine between outward normals below which two places face each other. Tuned.
-pub(crate) const FACING_COSINE: f64 = -0.3;
+pub const FACING_COSINE: f64 = -0.3;
 
 /// What lies nearest to a point.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Nearest {
+pub struct Nearest {
     /// The facet; meaningless for an obstacle.
     pub facet: usize,
     /// Place on it.
@@ -28,7 +28,7 @@ pub(crate) struct Nearest {
 }
 
 /// The facets of an interface, to be asked for many points.
-pub(crate) struct Opposite<'a> {
+pub struct Opposite<'a> {
     interface: &'a InterfaceDefinition,
     tree: Tree,
     found: Vec<usize>,
@@ -36,7 +36,7 @@ pub(crate) struct Opposite<'a> {
 }
 
 /// Coordinates of the nodes of a facet in the reference configuration.
-pub(super) fn coordinates(interface: &InterfaceDefinition, facet: &Facet) -> Vec<Vec3> {
+pub fn coordinates(interface: &InterfaceDefinition, facet: &Facet) -> Vec<Vec3> {
     let nodes = facet.nodes.iter();
     nodes.map(|&n| interface.reference[n]).collect()
 }
@@ -122,20 +122,4 @@ fn within(kind: ElementKind, [a, b]: [f64; 2]) -> [f64; 2] {
         }
         _ => [a.clamp(-1.0, 1.0), b.clamp(-1.0, 1.0)],
     }
-}
-
-/// A length of a facet: half of it where it has nodes on its edges.
-pub(super) fn spacing(interface: &InterfaceDefinition, facet: &Facet) -> f64 {
-    let x = coordinates(interface, facet);
-    let order = facet.kind.order().max(1) as f64;
-    let corners = match (facet.kind.dim(), x.len()) {
-        (1, _) => 2,
-        (_, 3 | 6) => 3,
-        _ => 4,
-    };
-    let longest: f64 = (0..corners)
-        .map(|i| distance(x[i], x[(i + 1) % corners]))
-        .sum::<f64>()
-        / corners as f64;
-    longest / order
 }

@@ -1,14 +1,14 @@
 //! Moves unconstrained bodies, as rigid ones, the way their loads push them until they touch.
 
+use super::super::contact::Contact;
+use super::super::definition::Model;
+use super::super::frame::Frame;
+use super::free_bodies::FreeBody;
+use super::held::NO_RESISTANCE;
+use super::null_space_below;
 use crate::contact::interface::{Conditions, meeting};
 use crate::math::{Vec3, add, add_scaled, dot, norm, scale};
 use crate::mesh::geometry;
-use crate::model::contact::Contact;
-use crate::model::definition::Model;
-use crate::model::frame::Frame;
-use crate::model::rigid::free_bodies::FreeBody;
-use crate::model::rigid::held::NO_RESISTANCE;
-use crate::model::rigid::null_space_below;
 use crate::time::Trial;
 use crate::tolerance::SAME;
 

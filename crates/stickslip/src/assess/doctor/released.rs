@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-use super::super::finding::{DoctorCause, Finding};
-use super::super::places::body;
-use super::super::suspect::Suspect;
+use super::finding::{DoctorCause, Finding};
+use super::places::body;
+use super::suspect::Suspect;
 use crate::assess::view::View;
 use crate::model::definition::{Body, Model, Step};
 use crate::model::rigid::held;
