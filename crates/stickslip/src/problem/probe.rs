@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 pub struct Probe {
     /// Undeformed coordinates `[length]`; the nearest point of the mesh is taken.
     pub point: Vec<f64>,
-    /// The body of the point; may be left out if there is only one.
+    /// The body of the point; that with the nearest point if not given. Where points of several bodies are equally near, it has to be given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub of: Option<String>,
 }

@@ -38,6 +38,8 @@ pub enum Select {
     Plane(PlaneRegion),
     /// The points in a ball (in 2D: a disc).
     Ball(BallRegion),
+    /// The points of the boundary facets that look in a direction; where facets are wanted, these.
+    Normal(NormalRegion),
     /// The points with these numbers of the mesh.
     Numbers(Vec<u64>),
     /// The points of other sets, `body.set` or names of `[set.NAME]`.
@@ -64,6 +66,23 @@ pub struct PlaneRegion {
     pub point: Vec<f64>,
     /// Its normal, of any length.
     pub normal: Vec<f64>,
+}
+
+/// Facets by the direction in which they look.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct NormalRegion {
+    /// The direction of the outward normal, of any length.
+    pub direction: Vec<f64>,
+    /// Largest angle between the normal of a facet, at its middle, and the direction `[degrees]`.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0, max = 180)))]
+    #[serde(default = "default_angle")]
+    pub angle: f64,
+}
+
+fn default_angle() -> f64 {
+    20.0
 }
 
 /// A ball; in 2D a disc.

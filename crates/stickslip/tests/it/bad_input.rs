@@ -150,6 +150,21 @@ fn a_place_where_no_point_is() {
 }
 
 #[test]
+fn supports_that_contradict_each_other() {
+    let side =
+        "support.side = { set = \"block.left\", y = 1e-6 }\nsupport.top = { set = \"block.top\"";
+    let message = wrong("support.top = { set = \"block.top\"", side);
+    says(
+        &message,
+        &[
+            "support.top",
+            "supports side and top prescribe different displacements of node",
+            "leave the common points out of one of the two sets",
+        ],
+    );
+}
+
+#[test]
 fn an_interface_without_facets() {
     let message = wrong(
         "interface.base = { secondary = \"block.bottom\"",

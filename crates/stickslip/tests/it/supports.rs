@@ -139,3 +139,101 @@ step = [
         assert!((area - work).abs() < tolerance * work, "{area}, {work}");
     }
 }
+
+/// A block under a pressure on the facets that look along a direction, and what its support holds.
+fn pressed(space: &str, body: &str, set: &str) -> Vec<f64> {
+    let (bottom, z) = match space {
+        "solid" => ("bottom", ", z = 0"),
+        _ => ("bottom", ""),
+    };
+    let rows = rows(&format!(
+        r#"
+format = 1
+model.space = "{space}"
+body.block = {{ generate.{body}, material = "m" }}
+material.m.isotropic = {{ young = 1000.0, poisson = 0.3 }}
+set.pressed = {{ of = "block", normal = {set} }}
+support.base = {{ set = "block.{bottom}", x = 0, y = 0{z} }}
+load.p = {{ set = "pressed", pressure.value = 3 }}
+step = [{{ increments.fixed = 1 }}]
+"#
+    ));
+    let forces = ["base.RF1", "base.RF2", "base.RF3"];
+    forces.iter().filter_map(|name| rows[0].get(name)).collect()
+}
+
+#[test]
+fn facets_are_chosen_by_where_they_look() {
+    let plane = "rectangle = { to = [4, 1], cells = [4, 2] }";
+    let solid = "box = { to = [4, 1, 2], cells = [4, 1, 1], element = \"hex20\" }";
+    // Pressure times the area of the sides, against the normals; a side of one cell is not taken for the top because all its nodes are on the two.
+    for (space, body, set, wanted) in [
+        (
+            "plane-strain",
+            plane,
+            "{ direction = [0, 2] }",
+            vec![0.0, 12.0],
+        ),
+        (
+            "plane-strain",
+            plane,
+            "{ direction = [1, 1], angle = 46 }",
+            vec![3.0, 12.0],
+        ),
+        (
+            "solid",
+            solid,
+            "{ direction = [0, 0, 1] }",
+            vec![0.0, 0.0, 12.0],
+        ),
+        (
+            "solid",
+            solid,
+            "{ direction = [1, 0, 1], angle = 46 }",
+            vec![6.0, 0.0, 12.0],
+        ),
+    ] {
+        let forces = pressed(space, body, set);
+        assert_eq!(forces.len(), wanted.len());
+        for (force, wanted) in forces.into_iter().zip(wanted) {
+            near(force, wanted, 12.0);
+        }
+    }
+}
+
+#[test]
+fn a_probe_finds_the_body_that_has_a_point_there() {
+    let problem = |point: &str| {
+        format!(
+            r#"
+format = 1
+model.space = "plane-strain"
+body.lower = {{ generate.rectangle = {{ to = [1, 1], cells = [2, 2] }}, material = "m" }}
+body.upper = {{ generate.rectangle = {{ from = [0, 1], to = [1, 2], cells = [2, 2] }}, material = "m" }}
+material.m.isotropic = {{ young = 1000.0, poisson = 0.0 }}
+interface.joint = {{ secondary = "upper.bottom", primary = "lower.top" }}
+support.base = {{ set = "lower.bottom", x = 0, y = 0 }}
+support.guide = {{ set = "upper.top", x = 0, y = -0.002 }}
+probe.p.point = {point}
+step = [{{ increments.fixed = 1 }}]
+"#
+        )
+    };
+    // A column without lateral strain: displacements are linear from the foot to the top.
+    for (point, wanted) in [("[0.5, 1.5]", -0.0015), ("[0.5, 0.5]", -0.0005)] {
+        let rows = rows(&problem(point));
+        assert!((value(&rows[0], "p.U2") - wanted).abs() < 1e-6, "{point}");
+    }
+    let there = support::problem(&problem("[0.5, 1]")).build(std::path::Path::new("."));
+    let message = there
+        .err()
+        .expect("both bodies have a point there")
+        .to_string();
+    for part in [
+        "probe.p",
+        "bodies `lower` and `upper` both have a point there",
+        "of = \"lower\"",
+    ] {
+        assert!(message.contains(part), "`{part}` is missing in {message}");
+    }
+}

@@ -83,8 +83,6 @@ causes! {
     SofterPrimary = "softer-primary",
     /// Numbers that do not go with one system of units.
     MixedUnits = "mixed-units" mistake,
-    /// Supports prescribe different displacements for one point.
-    ContradictingSupports = "contradicting-supports",
     /// A coefficient of friction beyond what dry surfaces have.
     LargeFriction = "large-friction",
     /// An interface has friction, but nothing presses it together.

@@ -1,6 +1,7 @@
 //! From a checked [`Problem`] to a [`Model`](crate::model::Model): meshes are made or read, names become indices.
 
 mod contact;
+mod contradicting;
 mod couplings;
 mod cuts;
 mod faces;
@@ -378,11 +379,12 @@ fn build_moved(
         cuts: &built.cuts,
     };
     let attached = attach(problem, &built)?;
+    contradicting::refuse(&attached.supports, &attached.steps, &mesh, dofs)?;
     let rigid = built.rigid();
     let (interfaces, heights) = interfaces(problem, folder, &built, &attached)?;
     let initials = initial::build(problem, &sets, &mesh, &rigid, folder)?;
     initial::agree_with_supports(problem, &initials, &attached.supports, &mesh, &rigid)?;
-    let probes = probes(problem, &sets, &bodies)?;
+    let probes = probes(problem, &sets)?;
     let mut notes = moves.notes;
     notes.extend(interfaces.iter().filter_map(|i| exchange_note(problem, i)));
     notes.extend(heights);
@@ -555,11 +557,13 @@ fn supports(
     Ok(out)
 }
 
-fn probes(problem: &Problem, sets: &Sets, bodies: &[Body]) -> Result<Vec<Probe>, Error> {
+fn probes(problem: &Problem, sets: &Sets) -> Result<Vec<Probe>, Error> {
     let mut out = Vec::new();
     for (name, probe) in &problem.probe {
-        let body = probe.of.as_ref().unwrap_or(&bodies[0].name);
-        let point = sets.nearest(body, &probe.point, &format!("probe.{name}.of"))?;
+        let point = match &probe.of {
+            Some(body) => sets.nearest(body, &probe.point, &format!("probe.{name}.of"))?,
+            None => sets.nearest_of_all(&probe.point, &format!("probe.{name}"))?,
+        };
         out.push(Probe {
             name: name.clone(),
             point,

@@ -3,12 +3,15 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::nearest::suggest;
+use super::super::set::NormalRegion;
 use super::super::{Problem, Select};
 use super::fault::problem_error;
+use crate::contact::facet_point::evaluate;
 use crate::error::{Diagnostic, Error};
 use crate::math::{Vec3, distance, dot, normalize, sub};
-use crate::mesh::{CellRef, FacetRef, Mesh, select};
+use crate::mesh::{CellRef, FacetRef, Mesh, geometry, select};
 use crate::model::Body;
+use crate::tolerance::NEGLIGIBLE;
 
 /// Resolves names of sets against the joined mesh.
 pub(super) struct Sets<'a> {
@@ -17,6 +20,8 @@ pub(super) struct Sets<'a> {
     /// Facets of cuts: they bound cells, but no surface.
     inside: BTreeSet<FacetRef>,
     own: BTreeMap<String, Vec<usize>>,
+    /// The facets of sets that are chosen by their normals.
+    facing: BTreeMap<String, Vec<FacetRef>>,
     /// The first hidden point of each reference point.
     references: BTreeMap<String, usize>,
 }
@@ -40,6 +45,7 @@ impl<'a> Sets<'a> {
             bodies,
             inside,
             own: BTreeMap::new(),
+            facing: BTreeMap::new(),
         };
         // Unions may name other sets: whatever can be resolved is, until nothing is left or nothing moves.
         let mut left: Vec<&String> = problem.set.keys().collect();
@@ -68,7 +74,15 @@ impl<'a> Sets<'a> {
                 }
                 let of = set.of.as_deref().unwrap_or_default();
                 let from = sets.points(of, &format!("{key}.of"))?;
-                let points = sets.select(&set.select, set.tolerance, &from);
+                let points = match &set.select {
+                    Select::Normal(region) => {
+                        let facets = sets.facing(region, &from);
+                        let points = mesh.points_of_facets(&facets);
+                        sets.facing.insert(name.clone(), facets);
+                        points
+                    }
+                    other => sets.select(other, set.tolerance, &from),
+                };
                 if points.is_empty() {
                     return Err(problem_error(vec![
                         Diagnostic::new(&key, format!("no point of `{of}` lies there"))
@@ -126,7 +140,7 @@ impl<'a> Sets<'a> {
                 keep(&|p| distance(x(p), vec3(&ball.centre)) <= ball.radius + reach)
             }
             Select::Numbers(numbers) => keep(&|p| numbers.contains(&self.mesh.point_ids[p])),
-            Select::Union(_) => Vec::new(),
+            Select::Union(_) | Select::Normal(_) => Vec::new(),
         }
     }
 
@@ -206,7 +220,8 @@ impl<'a> Sets<'a> {
 
     /// Boundary facets of a set: its own, or those all of whose points are in it.
     pub fn facets(&self, name: &str, key: &str) -> Result<Vec<FacetRef>, Error> {
-        if let Some(facets) = self.mesh.facet_sets.get(name)
+        let own = self.facing.get(name);
+        if let Some(facets) = own.or_else(|| self.mesh.facet_sets.get(name))
             && !facets.is_empty()
         {
             return Ok(facets.clone());
@@ -258,5 +273,46 @@ impl<'a> Sets<'a> {
             .copied()
             .min_by(|&a, &b| distance(x(a), place).total_cmp(&distance(x(b), place)));
         Ok(nearest.unwrap_or(0))
+    }
+
+    /// The point of all bodies nearest to a place. Where surfaces touch, both have one there, and it is an error.
+    pub fn nearest_of_all(&self, place: &[f64], key: &str) -> Result<usize, Error> {
+        let x = vec3(place);
+        let of = |body: &'a Body| {
+            let point = self.nearest(&body.name, place, key)?;
+            Ok((distance(self.mesh.points[point], x), point, body))
+        };
+        let all: Result<Vec<_>, Error> = self.bodies.iter().map(of).collect();
+        let mut all = all?;
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let [(way, point, first), rest @ ..] = all.as_slice() else {
+            return Ok(0);
+        };
+        let room = way + NEGLIGIBLE * geometry::diameter(self.mesh);
+        if let Some((.., second)) = rest.first().filter(|(other, ..)| *other <= room) {
+            let message = format!(
+                "bodies `{}` and `{}` both have a point there",
+                first.name, second.name
+            );
+            let finding = Diagnostic::new(key, message)
+                .help(format!("say which is meant: `of = \"{}\"`", first.name));
+            return Err(problem_error(vec![finding]));
+        }
+        Ok(*point)
+    }
+
+    /// The boundary facets all of whose points are in `from` and whose outward normal is within an angle of a direction.
+    fn facing(&self, region: &NormalRegion, from: &[usize]) -> Vec<FacetRef> {
+        let direction = normalize(vec3(&region.direction)).unwrap_or_default();
+        let least = region.angle.to_radians().cos();
+        let mut facets = select::boundary_within(self.mesh, from);
+        facets.retain(|facet| {
+            let (kind, nodes) = self.mesh.facet_points(*facet);
+            let x: Vec<Vec3> = nodes.iter().map(|&p| self.mesh.points[p]).collect();
+            let [s, t, _] = kind.centre();
+            let normal = evaluate(kind, &x, [s, t]).normal;
+            dot(normal, direction) >= least && !self.inside.contains(facet)
+        });
+        facets
     }
 }

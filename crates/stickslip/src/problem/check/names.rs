@@ -339,14 +339,6 @@ fn probes(problem: &Problem, findings: &mut Findings) {
     for (name, probe) in &problem.probe {
         let key = ["probe", name, "of"];
         one_of(findings, &key, probe.of.as_deref(), "bodies", &problem.body);
-        if probe.of.is_none() && problem.body.len() > 1 {
-            let bodies: Vec<&str> = problem.body.keys().map(String::as_str).collect();
-            findings.add(
-                &["probe", name],
-                format!("the probe `{name}` does not say of which body its point is"),
-                format!("add `of`, one of: {}", bodies.join(", ")),
-            );
-        }
     }
 }
 

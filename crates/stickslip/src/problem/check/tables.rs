@@ -255,15 +255,16 @@ fn select(problem: &Problem, findings: &mut Findings, name: &str, select: &Selec
         }
         Select::Plane(plane) => {
             findings.vector(problem, &["set", name, "plane", "point"], &plane.point);
-            let at = ["set", name, "plane", "normal"];
-            findings.vector(problem, &at, &plane.normal);
-            let mut normal = [0.0; 3];
-            for (n, x) in normal.iter_mut().zip(&plane.normal) {
-                *n = *x;
-            }
-            if normalize(normal).is_none() {
-                findings.add(&at, "the normal is zero", "");
-            }
+            direction(
+                problem,
+                findings,
+                &["set", name, "plane", "normal"],
+                &plane.normal,
+            );
+        }
+        Select::Normal(region) => {
+            let at = ["set", name, "normal", "direction"];
+            direction(problem, findings, &at, &region.direction);
         }
         Select::Ball(ball) => {
             findings.vector(problem, &["set", name, "ball", "centre"], &ball.centre);
@@ -272,6 +273,15 @@ fn select(problem: &Problem, findings: &mut Findings, name: &str, select: &Selec
             findings.add(&key("numbers"), "a set without points", "");
         }
         Select::Numbers(_) | Select::Union(_) => {}
+    }
+}
+
+/// A vector that is not zero.
+fn direction(problem: &Problem, findings: &mut Findings, at: &[&str], vector: &[f64]) {
+    findings.vector(problem, at, vector);
+    let whole: [f64; 3] = std::array::from_fn(|c| vector.get(c).copied().unwrap_or(0.0));
+    if normalize(whole).is_none() {
+        findings.add(at, "the vector is zero", "");
     }
 }
 

@@ -50,15 +50,6 @@ pub const CONDITIONS: &[Defect] = &[
         Found(DoctorCause::FreeRigidMode, "upper"),
     ),
     defect(
-        "supports contradict each other",
-        PRESS,
-        &[(
-            "step =",
-            "support.side = { set = \"upper.left\", x = 1e-6 }\nstep =",
-        )],
-        Found(DoctorCause::ContradictingSupports, "top"),
-    ),
-    defect(
         "friction without anything that presses",
         PRESS,
         &[("x = 0, y = -1e-5", "x = 1e-5, y = 0")],
@@ -169,9 +160,12 @@ pub const CONDITIONS: &[Defect] = &[
     defect(
         "a body pulled to twice its length",
         PRESS,
-        &[("support.top", "support.side = { set = \"lower.right\", x = 0.04 }\nsupport.hold = { set = \"lower.left\", x = 0 }\nsupport.top")],
+        &[
+            ("set = \"lower.bottom\", x = 0, y = 0", "set = \"lower.bottom\", y = 0"),
+            ("support.top", "support.side = { set = \"lower.right\", x = 0.04 }\nsupport.hold = { set = \"lower.left\", x = 0 }\nsupport.top"),
+        ],
         Found(DoctorCause::LargeStrain, "side"),
-    ).also(&[DoctorCause::ContradictingSupports]),
+    ),
     defect(
         "a body thrown away from the wall",
         THROW,
