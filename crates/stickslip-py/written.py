@@ -213,6 +213,8 @@ def kind_of_option(value, repeated):
         return "bool"
     if repeated:
         return "Union[str, list[str]]"
+    if value == "MODE":
+        return "Union[str, int]"
     if value == "WxH":
         return "tuple[int, int]"
     if "," in value:
@@ -241,8 +243,10 @@ class PlotOptions(TypedDict, total=False):
     """Options of ``stickslip plot``."""
 '''
     for name, value, repeated, text in _core.plot_options():
-        if name not in ("field", "output"):
-            out += f"\n    {argument(name)}: {kind_of_option(value, repeated)}\n{docstring(text, [], '    ')}"
+        # Scripts stand beside pictures in files.
+        if name not in ("field", "output", "script"):
+            kind = 'Literal["gif", "png"]' if name == "animate" else kind_of_option(value, repeated)
+            out += f"\n    {argument(name)}: {kind}\n{docstring(text, [], '    ')}"
     return out
 
 

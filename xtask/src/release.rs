@@ -124,3 +124,28 @@ fn sums(files: &[PathBuf]) -> Result<(), String> {
     print!("{}", String::from_utf8_lossy(&text));
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A tag can be moved; what builds and signs a release is the commit that was looked at.
+    #[test]
+    fn workflows_use_actions_by_commit() {
+        let folder = workspace::root().join(".github/workflows");
+        let mut seen = 0;
+        for entry in std::fs::read_dir(folder).expect("the workflows") {
+            let path = entry.expect("a file").path();
+            let text = std::fs::read_to_string(&path).expect("a text");
+            for line in text.lines().filter(|line| line.contains("uses: ")) {
+                let commit = line.split_once('@').map_or("", |(_, commit)| commit);
+                let (commit, version) = commit.split_once(" # ").unwrap_or((commit, ""));
+                let whole = commit.len() == 40 && commit.bytes().all(|b| b.is_ascii_hexdigit());
+                let named = version.starts_with('v');
+                assert!(whole && named, "{}: {line}", path.display());
+                seen += 1;
+            }
+        }
+        assert!(seen > 0);
+    }
+}

@@ -30,6 +30,8 @@ fn columns([step, inc, time, its, stick, slip, open, force, left]: [&str; 9]) ->
     format!(
         "{step:<16} {inc:>6} {time:>12} {its:>5} {stick:>7} {slip:>7} {open:>7} {force:>12} {left:>8}"
     )
+    .trim_end()
+    .to_string()
 }
 
 /// Prints what happens.
@@ -81,6 +83,7 @@ impl Progress {
             return;
         }
         if self.lines == 1 {
+            self.line(&sentence(&legend(analysis)));
             self.line(&paint(Look::Strong, &columns(HEAD)));
         }
         let column = |name: &str| row.get(name).unwrap_or(0.0);
@@ -117,10 +120,10 @@ impl Progress {
         }
     }
 
-    /// The time that is left, if it is known.
+    /// The time that is left; nothing where it is not known.
     fn left(&self) -> String {
         match self.remaining.seconds() {
-            None => "?".to_string(),
+            None => String::new(),
             Some(s) if s < 100.0 => format!("{s:.0} s"),
             Some(s) if s < 6000.0 => format!("{:.0} min", s / 60.0),
             Some(s) => format!("{:.1} h", s / 3600.0),
@@ -216,6 +219,17 @@ impl Observer for Progress {
 fn of_solver(analysis: &Analysis, note: &str) -> bool {
     let reason = &analysis.summary.solved_by.method_reason;
     !reason.is_empty() && note.ends_with(reason.as_str())
+}
+
+/// What the columns are, in a line.
+fn legend(analysis: &Analysis) -> String {
+    let force = match analysis.contact.interfaces.as_slice() {
+        [only] => format!("contact force of {}", only.name),
+        _ => "largest contact force of an interface".to_string(),
+    };
+    format!(
+        "its: Newton iterations; stick, slip, open: contact points; force: {force}; left: time to the end, once it is known"
+    )
 }
 
 /// The largest force that an interface carries, of all interfaces.

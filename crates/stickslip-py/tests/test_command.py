@@ -22,6 +22,16 @@ def test_the_command_runs_a_case(problem, tmp_path):
     assert bad.returncode == 1 and "none.toml" in bad.stderr
 
 
+def test_a_script_beside_a_picture_draws_it_with_pyvista(problem, tmp_path):
+    pytest.importorskip("pyvista")
+    problem.build().run(directory=tmp_path / "case.out")
+    drawn = run(sys.executable, "-m", "stickslip", "plot", "case.out", "-o", "p.png", "--script", "--mirror", "x=0", cwd=tmp_path)
+    assert drawn.returncode == 0 and drawn.stdout.split() == ["p.png", "p.py"], drawn.stderr
+    done = run(sys.executable, "p.py", "again.png", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "again.png").read_bytes().startswith(b"\x89PNG")
+
+
 def test_the_command_is_installed():
     command = shutil.which("stickslip")
     if command is None:

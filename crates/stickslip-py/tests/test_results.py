@@ -148,6 +148,16 @@ def test_results_are_drawn_by_pyvista_too(problem, tmp_path):
     assert np.array_equal(grid.celltypes, live.celltypes)
 
 
+def test_pictures_in_motion(problem, tmp_path):
+    results = problem.build().run(directory=tmp_path / "case.out") and stickslip.open(tmp_path / "case.out")
+    film = results.plot("U", animate="gif", rate=5, size=(300, 200))
+    assert film.ending == "gif" and film.data.startswith(b"GIF89a")
+    assert film._repr_mimebundle_() == {"image/gif": film.data} and film._repr_png_() is None
+    assert b"acTL" in results.plot("U", animate="png", size=(300, 200)).data
+    with pytest.raises(ValueError, match="no shapes of modes"):
+        results.plot(mode=1)
+
+
 def test_tables_become_data_frames(done, problem):
     pandas = pytest.importorskip("pandas")
     frame = done.history.to_pandas()

@@ -3,9 +3,12 @@
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
+use stickslip::Error;
 use stickslip::error::IoError;
+use stickslip::io::vtu::{Grid, PointFields};
 use stickslip::io::{csv, pvd, vtu};
-use stickslip::{Error, io::vtu::Grid};
+
+use crate::phase::Phase;
 
 /// An error about a file.
 pub(crate) fn fault(file: &Path, message: impl Into<String>) -> Error {
@@ -22,6 +25,8 @@ pub struct Frame {
     pub time: f64,
     /// The file with the fields.
     pub file: PathBuf,
+    /// The phase at which the file is looked at, if it has the shape of a mode.
+    pub(crate) phase: Option<Phase>,
 }
 
 /// What a result folder holds. Fields are read when they are asked for.
@@ -121,7 +126,11 @@ impl Results {
                         format!("it lists `{name}`, which is not there"),
                     ));
                 }
-                results.frames.push(Frame { time, file });
+                results.frames.push(Frame {
+                    time,
+                    file,
+                    phase: None,
+                });
             }
         }
         // A run without interfaces has none.
@@ -136,6 +145,15 @@ impl Results {
     pub fn steps(&self) -> usize {
         let steps = self.problem.get("step").and_then(toml::Value::as_array);
         steps.map_or(0, Vec::len)
+    }
+
+    /// The number of a step, from 1, by that or its name.
+    pub(crate) fn step(&self, name: &str) -> Option<usize> {
+        let steps = self.problem.get("step").and_then(toml::Value::as_array)?;
+        let called =
+            |step: &toml::Value| step.get("name").and_then(toml::Value::as_str) == Some(name);
+        let named = steps.iter().position(called).map(|k| k + 1);
+        named.or_else(|| name.parse().ok())
     }
 
     /// The title of the problem, or the name of the folder.
@@ -187,7 +205,25 @@ impl Results {
     /// # Errors
     /// [`Error::Io`] if the file cannot be read or is damaged.
     pub fn grid(&self, frame: usize) -> Result<Grid, Error> {
-        vtu::read_grid(&self.frames[frame].file)
+        let Frame { file, phase, .. } = &self.frames[frame];
+        let mut grid = vtu::read_grid(file)?;
+        if let Some(phase) = phase {
+            phase.place(&mut grid.points);
+        }
+        Ok(grid)
+    }
+
+    /// Points and their data of a frame.
+    ///
+    /// # Errors
+    /// As [`Results::grid`].
+    pub fn points(&self, frame: usize) -> Result<PointFields, Error> {
+        let Frame { file, phase, .. } = &self.frames[frame];
+        let mut points = vtu::read(file)?;
+        if let Some(phase) = phase {
+            phase.place(&mut points);
+        }
+        Ok(points)
     }
 }
 

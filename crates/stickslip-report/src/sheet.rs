@@ -5,7 +5,7 @@ use stickslip::io::pvd::Part;
 use stickslip::io::vtu::{self, Grid, PointArray};
 use stickslip::results::OPPOSITE;
 
-use crate::results::{Frame, Results};
+use crate::results::Results;
 
 /// The surface of one interface at one time.
 #[derive(Debug, Clone, Default)]
@@ -122,7 +122,7 @@ impl Results {
     }
 
     fn at(&self, frame: usize) -> impl Iterator<Item = &Part> {
-        let Frame { time, .. } = self.frames[frame];
+        let time = self.frames[frame].time;
         self.surfaces.iter().filter(move |part| part.time == time)
     }
 

@@ -155,7 +155,7 @@ fn a_report_has_all_sections_and_loads_nothing() {
         for text in [
             "<title>Two blocks</title>",
             "friction › coulomb › mu",
-            "210e9 <span class=\"unit\">Pa</span>",
+            "<td>210e9</td>",
             "Step 1",
             "penetration to approach",
             "Content-Security-Policy",
@@ -163,6 +163,9 @@ fn a_report_has_all_sections_and_loads_nothing() {
         ] {
             assert!(page.contains(text), "{text}");
         }
+        // Units are those of the problem file, whatever they are.
+        let shown = &page[..page.find("<script").unwrap()];
+        assert!(!shown.contains("[Pa]") && !shown.contains("[m]"));
         // Nothing is loaded by any of the ways in which HTML loads.
         for way in [
             " src=",
@@ -833,14 +836,25 @@ fn columns_of_the_history_are_plotted() {
     let folder = Folder::new("columns");
     run(&stacked("plane-strain", "Two blocks", "b"), &folder.0);
     let columns = |file: &str, names: &[&str], against: &str| {
-        let names: Vec<String> = names.iter().map(|n| n.to_string()).collect();
+        let (left, right) = names.split_at(1);
+        let columns = plot::Columns {
+            left: left.iter().map(|n| n.to_string()).collect(),
+            right: right.iter().map(|n| n.to_string()).collect(),
+            against: against.into(),
+            label: String::new(),
+        };
         let file = folder.file(file);
-        plot::columns(&folder.0, Some(&file), &names, against, [400, 300])
-            .map_err(|e| e.to_string())
+        plot::columns(&folder.0, Some(&file), &columns, [400, 300]).map_err(|e| e.to_string())
     };
     let file = columns("h.svg", &["joint.CFN2", "ALLSE"], "TIME").unwrap();
     let text = std::fs::read_to_string(file).unwrap();
-    for word in ["joint.CFN2", "ALLSE", "TIME", "Two blocks", "<polyline"] {
+    for word in [
+        "joint.CFN2",
+        "ALLSE (right)",
+        "TIME",
+        "Two blocks",
+        "<polyline",
+    ] {
         assert!(text.contains(word), "{word}");
     }
     let file = columns("h.png", &["STICK"], "top.RF2").unwrap();
@@ -958,4 +972,134 @@ fn charts_of_modes_are_drawn_of_maps_and_sweeps() {
     let page = written(&folder.0);
     nests(&page);
     assert!(page.contains(vibration));
+}
+
+/// A beam, clamped at one end, with its modes.
+const BEAM: &str = r#"
+format = 1
+title = "A beam"
+model.space = "solid"
+body.beam = { generate.box = { to = [10, 1, 1], cells = [6, 1, 1], element = "hex20" }, material = "m" }
+material.m.isotropic = { young = 210e9, poisson = 0.3, density = 7.8e3 }
+support.wall = { set = "beam.left", x = 0, y = 0, z = 0 }
+step = [{ name = "ring", modes = { count = 3 } }]
+"#;
+
+#[test]
+fn modes_are_drawn_and_move() {
+    let folder = Folder::new("modes-in-motion");
+    run(BEAM, &folder.0);
+    let mode = |name: &str| Picture {
+        mode: Some(name.into()),
+        size: [400, 300],
+        ..Picture::default()
+    };
+    let svg = folder.file("mode.svg");
+    plot::picture(&folder.0, Some(&svg), &mode("ring:2")).unwrap();
+    let text = std::fs::read_to_string(&svg).unwrap();
+    for word in ["step 1, mode 2: frequency", "phase 0°"] {
+        assert!(text.contains(word), "{word}");
+    }
+    // All phases: from one end to the other and back; the shape is real, so that it vanishes in between.
+    let all = Picture {
+        when: When::All,
+        ..mode("2")
+    };
+    let facts = plot::facts(&folder.0, &all).unwrap();
+    assert_eq!(facts.len(), 24);
+    let largest: Vec<f64> = facts.iter().map(|f| f.extremes.unwrap()[1]).collect();
+    for (k, size) in largest.iter().enumerate() {
+        let wanted = (std::f64::consts::TAU * k as f64 / 24.0).cos().abs();
+        assert!((size - wanted).abs() < 1e-9, "{k}: {size} {wanted}");
+    }
+    for name in ["mode.png", "mode.gif"] {
+        let file = folder.file(name);
+        plot::animate(&folder.0, &file, &mode("2"), 12.0).unwrap();
+        let bytes = std::fs::read(&file).unwrap();
+        let animated = match name {
+            "mode.png" => bytes.windows(4).any(|w| w == b"acTL"),
+            _ => bytes.starts_with(b"GIF89a"),
+        };
+        assert!(animated, "{name}");
+    }
+    let wrong = |file: &str, name: &str| {
+        let drawn = plot::animate(&folder.0, &folder.file(file), &mode(name), 12.0);
+        drawn.unwrap_err().to_string()
+    };
+    assert!(wrong("mode.mp4", "1").contains("ffmpeg -i"));
+    for name in ["4", "ring:0", "2:1", "first"] {
+        let message = wrong("mode.gif", name);
+        assert!(message.contains("step 1 has modes 1 to 3"), "{message}");
+    }
+}
+
+#[test]
+fn a_run_is_drawn_in_motion_and_a_script_goes_on_from_a_picture() {
+    let folder = Folder::new("run-in-motion");
+    run(&stacked("plane-strain", "Two blocks", "b"), &folder.0);
+    let wanted = Picture {
+        size: [400, 300],
+        field: Some("TRESCA".into()),
+        bodies: vec!["b".into()],
+        mirrors: vec!["x=0".parse().unwrap()],
+        ..Picture::default()
+    };
+    plot::animate(&folder.0, &folder.file("run.gif"), &wanted, 5.0).unwrap();
+    let files = plot::scripts(&folder.0, Some(&folder.file("run.png")), &wanted).unwrap();
+    let text = std::fs::read_to_string(&files[0]).unwrap();
+    for part in [
+        "Path(__file__).parent / \"fields_00",
+        "1: (\"b\", [0.0, 0.0, 0.0]),",
+        "MIRRORS = [(0, 0.0, 1)]",
+        "values = principal[:, 0] - principal[:, 2]",
+    ] {
+        assert!(text.contains(part), "`{part}` is missing in\n{text}");
+    }
+    assert!(!text.contains("0: (\"a\""), "{text}");
+    // Without shapes of modes there is nothing to choose.
+    let mode = Picture {
+        mode: Some("1".into()),
+        ..Picture::default()
+    };
+    let message = plot::picture(&folder.0, None, &mode)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        message.contains("no shapes of modes were written"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_field_is_drawn_along_a_line_through_the_bodies() {
+    let folder = Folder::new("path");
+    run(&stacked("plane-strain", "Two blocks", "b"), &folder.0);
+    let line = |ends: [[f64; 3]; 2], when| plot::Line {
+        ends,
+        field: Some("U2".into()),
+        when,
+    };
+    let draw = |name: &str, line: &plot::Line| {
+        let file = folder.file(name);
+        plot::path(&folder.0, Some(&file), line, [400, 300]).map_err(|e| e.to_string())
+    };
+    // From below the lower block, which begins at 0, to the top of the upper one: the displacement goes from zero to what is prescribed there.
+    let through = line([[0.3, -1.0, 0.0], [0.3, 3.0, 0.0]], When::Last);
+    draw("path.csv", &through).unwrap();
+    let table = stickslip::io::csv::read(&folder.file("path.csv")).unwrap();
+    let (s, u) = (&table.columns[0], &table.columns[1]);
+    for (s, u) in s.iter().zip(u) {
+        assert_eq!(u.is_nan(), (s - 2.0).abs() > 1.0 + 1e-6, "{s}");
+    }
+    let at = |wanted: f64| u[s.iter().position(|s| *s >= wanted - 1e-9).unwrap()];
+    assert!(at(1.0).abs() < 1e-12 && (at(3.0) + 1e-3).abs() < 1e-9);
+    // In one cell the field is linear.
+    assert!((at(1.25) - 0.5 * at(1.5)).abs() < 1e-9);
+    draw("path.svg", &line(through.ends, When::All)).unwrap();
+    let text = std::fs::read_to_string(folder.file("path.svg")).unwrap();
+    assert_eq!(text.matches("U2 at ").count(), 3, "{text}");
+    assert!(text.contains("length along the line"));
+    let beside = line([[5.0; 3], [6.0; 3]], When::Last);
+    let message = draw("path.png", &beside).unwrap_err();
+    assert!(message.contains("meets no body"), "{message}");
 }

@@ -3,7 +3,7 @@ use std::process::ExitCode;
 
 use clap::ValueHint;
 use stickslip_report::plot::{
-    self, Along, Apart, Colours, Picture, Plane, Units, View, When, Zoom,
+    self, Along, Apart, Colours, Columns, Line, Picture, Plane, Units, View, When, Zoom,
 };
 
 use super::completions::Words;
@@ -22,10 +22,17 @@ pub struct Arguments {
     output: Option<PathBuf>,
     #[command(flatten)]
     framing: Framing,
+    #[command(flatten)]
+    motion: Motion,
+    #[command(flatten)]
+    tables: Tables,
     /// Draw what this interface carries along its surface: in a plane pressure, shear and status over the arc, in space maps of them, in plan or unrolled. With --field that
     /// field alone, in a plane, with --time all a line a time; of CWEAR and CDISS that of the surface opposite as well, in a file of its own (NAME-opposite.svg).
     #[arg(long, value_name = "INTERFACE", conflicts_with_all = ["view", "bodies", "range", "bands", "threshold", "apart", "at", "arrows", "cut", "mirror", "loads", "history"])]
     along: Option<String>,
+    /// Draw the field along a straight line through the bodies, by its ends before any displacement: `0,0,0:10,0,0`; a line a time with --time all. With -o NAME.csv a table.
+    #[arg(long, value_name = "X,Y[,Z]:X,Y[,Z]", allow_hyphen_values = true, value_parser = segment, conflicts_with_all = ["along", "view", "bodies", "range", "bands", "threshold", "apart", "at", "arrows", "cut", "mirror", "loads", "history", "script", "mode", "animate", "regimes", "stability", "coupling", "waterfall"])]
+    path: Option<Segment>,
     /// Tractions as arrows, in the colours of stick and slip: by themselves in contact views of plane problems.
     #[arg(long, value_name = "yes|no", value_parser = yes)]
     arrows: Option<bool>,
@@ -39,6 +46,9 @@ pub struct Arguments {
     /// Draw supports and loads as symbols, and the outline of the bodies before any displacement. Mesh files of the problem are looked for beside the folder of the results.
     #[arg(long)]
     loads: bool,
+    /// Write a script beside the picture that draws it with PyVista, to go on from: `plot.py` for `plot.png`.
+    #[arg(long, conflicts_with_all = ["along", "history", "animate", "regimes", "stability", "coupling", "waterfall"])]
+    script: bool,
     /// Units of length and stress for the legend: `mm,MPa`. Numbers stay as they are.
     #[arg(long, value_name = "LENGTH,STRESS", value_parser = units)]
     units: Option<Units>,
@@ -48,21 +58,17 @@ pub struct Arguments {
     /// Plot these columns of history.csv instead of the bodies.
     #[arg(long, value_name = "COLUMN,...", value_delimiter = ',', conflicts_with_all = ["field", "view", "bodies", "range", "bands", "threshold", "apart", "loads"])]
     history: Vec<String>,
+    /// Plot these columns too, along an axis of their own at the right.
+    #[arg(
+        long,
+        value_name = "COLUMN,...",
+        value_delimiter = ',',
+        requires = "history"
+    )]
+    right: Vec<String>,
     /// The table whose columns are meant, where it is not history.csv: `modes-2-map.csv`, say. The picture is named after it.
     #[arg(long, value_name = "FILE", requires = "history")]
     table: Option<String>,
-    /// Draw which runs of a sweep stick, slip in part and slide, over two of its axes: `amplitude,load`, the ends of their names will do.
-    #[arg(long, value_name = "ACROSS,UP", value_parser = pair, conflicts_with_all = ["along", "field", "view", "bodies", "history"])]
-    regimes: Option<Pair>,
-    /// Draw in which runs of a sweep steady sliding is stable, flutters and diverges, over two of its axes, with the boundary that `sweep --critical` has found.
-    #[arg(long, value_name = "ACROSS,UP", value_parser = pair, conflicts_with_all = ["along", "field", "view", "bodies", "history", "regimes"])]
-    stability: Option<Pair>,
-    /// Draw how modes couple: frequencies and growth of all over a column of a map (`pad.out/modes-2-map.csv --coupling mu`) or an axis of a sweep, a picture each.
-    #[arg(long, value_name = "COLUMN", conflicts_with_all = ["along", "field", "view", "bodies", "history", "regimes", "stability"])]
-    coupling: Option<String>,
-    /// Draw how strong a vibration is over time and frequency, from the table of its spectra: `pad.out/modes-3-waterfall.csv --waterfall`.
-    #[arg(long, conflicts_with_all = ["along", "field", "view", "bodies", "history", "regimes", "stability", "coupling"])]
-    waterfall: bool,
     /// The column along the horizontal axis.
     #[arg(
         long,
@@ -113,6 +119,38 @@ struct Framing {
     /// What is in the middle of the picture.
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = place)]
     at: Option<Place>,
+}
+
+/// What moves.
+#[derive(Debug, clap::Args)]
+struct Motion {
+    /// Draw the shape of a mode, or the answer to harmonic loads: its number in the last step that has some, or STEP:MODE, the step by its name or number. The fastest growing mode is
+    /// often the one to look at.
+    #[arg(long, value_name = "MODE", conflicts_with_all = ["along", "history", "regimes", "stability", "coupling", "waterfall"])]
+    mode: Option<String>,
+    /// Write a picture in motion, through all times at which fields were written or the phases of a mode: animated PNG, which browsers show and other programs make films of, or GIF.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["along", "history", "output", "time", "regimes", "stability", "coupling", "waterfall"])]
+    animate: Option<PathBuf>,
+    /// Pictures a second.
+    #[arg(long, value_name = "N", default_value = "10", value_parser = rate, requires = "animate")]
+    rate: f64,
+}
+
+/// What is drawn of a table of many runs, modes or spectra.
+#[derive(Debug, clap::Args)]
+struct Tables {
+    /// Draw which runs of a sweep stick, slip in part and slide, over two of its axes: `amplitude,load`, the ends of their names will do.
+    #[arg(long, value_name = "ACROSS,UP", value_parser = pair, conflicts_with_all = ["along", "field", "view", "bodies", "history"])]
+    regimes: Option<Pair>,
+    /// Draw in which runs of a sweep steady sliding is stable, flutters and diverges, over two of its axes, with the boundary that `sweep --critical` has found.
+    #[arg(long, value_name = "ACROSS,UP", value_parser = pair, conflicts_with_all = ["along", "field", "view", "bodies", "history", "regimes"])]
+    stability: Option<Pair>,
+    /// Draw how modes couple: frequencies and growth of all over a column of a map (`pad.out/modes-2-map.csv --coupling mu`) or an axis of a sweep, a picture each.
+    #[arg(long, value_name = "COLUMN", conflicts_with_all = ["along", "field", "view", "bodies", "history", "regimes", "stability"])]
+    coupling: Option<String>,
+    /// Draw how strong a vibration is over time and frequency, from the table of its spectra: `pad.out/modes-3-waterfall.csv --waterfall`.
+    #[arg(long, conflicts_with_all = ["along", "field", "view", "bodies", "history", "regimes", "stability", "coupling"])]
+    waterfall: bool,
 }
 
 /// Fields that results mostly have, for completions.
@@ -185,6 +223,11 @@ fn range(text: &str) -> Result<Range, String> {
     }
 }
 
+fn rate(text: &str) -> Result<f64, String> {
+    let rate = number(text).ok().filter(|n| (0.1..=100.0).contains(n));
+    rate.ok_or_else(|| "a number from 0.1 to 100".into())
+}
+
 fn yes(text: &str) -> Result<bool, String> {
     match text {
         "yes" => Ok(true),
@@ -204,6 +247,18 @@ fn place(text: &str) -> Result<Place, String> {
         Some(&[x, y]) => Ok(Place([x, y, 0.0])),
         Some(&[x, y, z]) => Ok(Place([x, y, z])),
         _ => Err("two or three coordinates with commas between them".into()),
+    }
+}
+
+/// The ends of a line.
+#[derive(Debug, Clone, Copy)]
+struct Segment([[f64; 3]; 2]);
+
+fn segment(text: &str) -> Result<Segment, String> {
+    let ends = text.split_once(':').map(|(a, b)| [place(a), place(b)]);
+    match ends {
+        Some([Ok(a), Ok(b)]) if a.0 != b.0 => Ok(Segment([a.0, b.0])),
+        _ => Err("two places with a colon between them: `0,0,0:10,0,0`".into()),
     }
 }
 
@@ -244,16 +299,17 @@ fn of_table(arguments: &Arguments) -> Result<Option<Vec<PathBuf>>, Failure> {
         arguments.output.as_deref(),
         arguments.size,
     );
-    let asked = [&arguments.regimes, &arguments.stability];
+    let tables = &arguments.tables;
+    let asked = [&tables.regimes, &tables.stability];
     let of_two = asked.iter().any(|pair| pair.is_some());
-    if !of_two && arguments.coupling.is_none() && !arguments.waterfall {
+    if !of_two && tables.coupling.is_none() && !tables.waterfall {
         return Ok(None);
     }
     // Elsewhere a table is a file by mistake.
     if !table.is_file() {
         given::file(table, &["csv"])?;
     }
-    if let Some(against) = &arguments.coupling {
+    if let Some(against) = &tables.coupling {
         return Ok(Some(plot::coupling(table, output, against, size)?));
     }
     let file = match asked {
@@ -287,10 +343,20 @@ pub fn draw(arguments: &Arguments) -> Result<(Vec<PathBuf>, Vec<String>), Failur
         let files = plot::along(&arguments.directory, output, &wanted)?;
         return Ok((files, Vec::new()));
     }
+    if let Some(Segment(ends)) = arguments.path {
+        let line = Line {
+            ends,
+            field: arguments.framing.field.clone(),
+            when: arguments.framing.time,
+        };
+        let file = plot::path(&arguments.directory, output, &line, arguments.size)?;
+        return Ok((vec![file], Vec::new()));
+    }
     if arguments.history.is_empty() {
         let picture = Picture {
             field: arguments.framing.field.clone(),
             when: arguments.framing.time,
+            mode: arguments.motion.mode.clone(),
             scale: arguments.framing.scale.0,
             view: arguments.framing.view,
             bodies: arguments.framing.bodies.clone(),
@@ -309,21 +375,35 @@ pub fn draw(arguments: &Arguments) -> Result<(Vec<PathBuf>, Vec<String>), Failur
             loads: arguments.loads,
             units: arguments.units.clone(),
         };
-        return Ok(plot::picture(&arguments.directory, output, &picture)?);
+        if let Some(file) = &arguments.motion.animate {
+            let rate = arguments.motion.rate;
+            let notes = plot::animate(&arguments.directory, file, &picture, rate)?;
+            return Ok((vec![file.clone()], notes));
+        }
+        let (mut files, notes) = plot::picture(&arguments.directory, output, &picture)?;
+        if arguments.script {
+            files.extend(plot::scripts(&arguments.directory, output, &picture)?);
+        }
+        return Ok((files, notes));
     }
-    let named = arguments.history.iter().filter(|name| !name.is_empty());
-    let columns: Vec<String> = named.cloned().collect();
-    if columns.is_empty() {
+    let named = |names: &[String]| names.iter().filter(|n| !n.is_empty()).cloned().collect();
+    let columns = Columns {
+        left: named(&arguments.history),
+        right: named(&arguments.right),
+        against: arguments.against.clone(),
+        label: String::new(),
+    };
+    if columns.left.is_empty() {
         return Err(Failure::Arguments(
             "no column is named".into(),
             "--history takes names of columns of history.csv, with commas between them".into(),
         ));
     }
-    let (directory, against) = (&arguments.directory, &arguments.against);
+    let directory = &arguments.directory;
     let size = arguments.size;
     let file = match &arguments.table {
-        Some(name) => plot::table(directory, output, name, &columns, against, size)?,
-        None => plot::columns(directory, output, &columns, against, size)?,
+        Some(name) => plot::table(directory, output, name, &columns, size)?,
+        None => plot::columns(directory, output, &columns, size)?,
     };
     Ok((vec![file], Vec::new()))
 }

@@ -20,7 +20,7 @@ class Picture:
     def __init__(self, data: bytes, ending: str, notes: Iterable[str] = ()) -> None:
         #: The content of the file.
         self.data = data
-        #: ``"png"`` or ``"svg"``.
+        #: ``"png"``, ``"svg"`` or ``"gif"``.
         self.ending = ending
         #: What was chosen for the reader.
         self.notes = list(notes)
@@ -38,6 +38,9 @@ class Picture:
 
     def _repr_svg_(self) -> Optional[str]:
         return self.data.decode() if self.ending == "svg" else None
+
+    def _repr_mimebundle_(self, include: Any = None, exclude: Any = None) -> dict[str, bytes]:
+        return {"image/gif": self.data} if self.ending == "gif" else {}
 
     def __repr__(self) -> str:
         return f"<stickslip.Picture: {self.ending}, {len(self.data) / 1e3:.0f} kB; .save(\"NAME.{self.ending}\") writes it>"
@@ -60,8 +63,11 @@ def draw(directory: Path, ending: str, options: dict[str, Any]) -> Picture:
     if options.get("time") == "all":
         raise ValueError("time: a picture shows one time, `last` or a number from 1; `stickslip plot --time all` writes a file each")
     with tempfile.TemporaryDirectory(prefix="stickslip-") as folder:
+        animated = options.get("animate")
+        ending = animated or ending
         file = Path(folder) / f"plot.{ending}"
-        arguments = [str(directory), "--output", str(file)]
+        arguments = [str(directory), "--animate" if animated else "--output", str(file)]
+        options = {name: value for name, value in options.items() if name != "animate"}
         for name, value in options.items():
             arguments += _option(name, value)
         try:

@@ -2,11 +2,13 @@
 
 mod canvas;
 mod font;
+mod motion;
 mod png;
 mod svg;
 
 pub use canvas::{Anchor, Canvas, Pen};
 pub use font::width as text_width;
+pub use motion::{Format, Motion};
 pub use png::Png;
 pub use svg::Svg;
 

@@ -20,6 +20,12 @@ impl Png {
         map.fill(Color::WHITE);
         Some(Png(map))
     }
+
+    /// Red, green and blue of each pixel.
+    pub fn pixels(&self) -> Vec<u8> {
+        let all = self.0.pixels().iter();
+        all.flat_map(|p| [p.red(), p.green(), p.blue()]).collect()
+    }
 }
 
 fn paint([r, g, b]: Rgb) -> Paint<'static> {

@@ -52,7 +52,7 @@ pub fn table(class: &str, caption: &str, heads: &[&str], rows: &[Vec<String>]) -
 }
 
 /// Title and outcome.
-pub fn header(results: &Results, title: &str) -> String {
+pub fn header(results: &Results, title: &str, modes: bool) -> String {
     let s = &results.summary;
     let mut marks = String::new();
     let mut outcome = String::new();
@@ -102,10 +102,14 @@ pub fn header(results: &Results, title: &str) -> String {
     if let Some(total) = s["phases"]["total"].as_f64() {
         facts.push(format!("<b>{}</b>", seconds(total)));
     }
+    let modes = match modes {
+        true => "<a href=\"#modes\">Modes</a>",
+        false => "",
+    };
     let list: String = facts.iter().map(|f| format!("<li>{f}</li>")).collect();
     format!(
         "<header>\n<div class=\"inner\"><p class=\"brand\">stickslip report</p>\n<h1>{title}</h1>\n<p class=\"marks\">{marks}</p>\n{outcome}<ul class=\"facts\">{list}</ul>\n\
-         <nav aria-label=\"Sections\"><a href=\"#result\">Result</a><a href=\"#solved\">Problem</a><a href=\"#quality\">Quality</a>\
+         <nav aria-label=\"Sections\"><a href=\"#result\">Result</a>{modes}<a href=\"#solved\">Problem</a><a href=\"#quality\">Quality</a>\
          <a href=\"#convergence\">Convergence</a><a href=\"#energy\">Energy</a><a href=\"#history\">History</a><a href=\"#time\">Time</a></nav></div>\n</header>\n"
     )
 }

@@ -59,16 +59,18 @@ pub fn page(results: &Results, limits: Limits) -> Result<(String, Vec<String>), 
     let mut notes = results.missing.clone();
     let model = model::pack(results, limits.fields, &mut notes)?;
     let history = tables::pack(&results.history, limits.rows, &mut notes);
-    let drawings = crate::plot::drawings(results)?;
-    let waterfalls = crate::plot::waterfalls(results)?;
-    let drawings = [drawings.as_slice(), &waterfalls];
-    let mut text = page::write(results, &model, &history, drawings, &notes);
+    let drawn = page::Drawn {
+        modes: modes::section(results)?,
+        along: crate::plot::drawings(results)?,
+        waterfalls: crate::plot::waterfalls(results)?,
+    };
+    let mut text = page::write(results, &model, &history, &drawn, &notes);
     if text.len() as u64 > LARGE_PAGE {
         notes.push(format!(
             "this page has {:.0} MB; with a lower --limit it keeps fewer times",
             text.len() as f64 / 1e6
         ));
-        text = page::write(results, &model, &history, drawings, &notes);
+        text = page::write(results, &model, &history, &drawn, &notes);
     }
     Ok((text, notes))
 }

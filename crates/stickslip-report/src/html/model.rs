@@ -9,6 +9,7 @@ use crate::field::{self, Field};
 use crate::obstacle::{self, Outline};
 use crate::pack;
 use crate::results::{Results, fault};
+use crate::shapes;
 use crate::sheet::Sheet;
 use crate::skin::Skin;
 
@@ -24,7 +25,14 @@ pub struct Packed {
 /// Packs the skin and the fields of as many times as fit into `limit` bytes.
 pub fn pack(results: &Results, limit: u64, notes: &mut Vec<String>) -> Result<Packed, Error> {
     if results.frames.is_empty() {
-        return Ok(Packed::default());
+        // What has modes and nothing else is shown by them.
+        return match shapes::all(results)?.first() {
+            Some(first) => {
+                let name = format!("{}:{}", first.step, first.mode);
+                pack(&shapes::at_phases(results, &name, 1)?, limit, notes)
+            }
+            None => Ok(Packed::default()),
+        };
     }
     let grid = results.grid(0)?;
     let skin = Skin::of(&grid);
@@ -54,7 +62,7 @@ pub fn pack(results: &Results, limit: u64, notes: &mut Vec<String>) -> Result<Pa
     let mut motion: Vec<f32> = Vec::new();
     for &frame in &kept {
         let file = &results.frames[frame].file;
-        let read = stickslip::io::vtu::read(file)?;
+        let read = results.points(frame)?;
         if read.points.len() != grid.points.points.len() {
             return Err(fault(
                 file,

@@ -4,20 +4,57 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 use stickslip::Error;
-use stickslip::io::{csv, pvd, vtu};
+use stickslip::io::{csv, vtu};
+use stickslip::modal::grows;
+use stickslip::number::figure;
 
 use crate::pack;
+use crate::phase::PARTS;
 use crate::results::{Results, fault};
+use crate::shapes::{self, Shape};
 use crate::skin::Skin;
 
-/// The arrays of a shape.
-const PARTS: [&str; 2] = ["PHI", "PHI_IMAGINARY"];
-
-/// A shape that may be shown.
-struct Shape {
-    label: String,
-    growth: f64,
-    file: String,
+/// Tables of the modes of all steps, and how they depend on what a map varies.
+///
+/// # Errors
+/// [`Error::Io`] if a table is damaged.
+pub fn section(results: &Results) -> Result<String, Error> {
+    let mut out = String::new();
+    for step in 1..=results.steps() {
+        let file = results.directory.join(format!("modes-{step}.csv"));
+        if !file.is_file() {
+            continue;
+        }
+        let table = csv::read(&file)?;
+        let of = |name: &str| table.column(name).unwrap_or_default();
+        let (frequencies, growths, ratios) = (of("frequency"), of("growth"), of("damping-ratio"));
+        let rows: String = (0..table.rows())
+            .map(|k| {
+                let at = |values: &[f64]| values.get(k).map_or("–".into(), |v| figure(*v));
+                let ratio = ratios.get(k).copied().unwrap_or(0.0);
+                let verdict = match grows(ratio) {
+                    true => "<strong>unstable: it grows</strong>",
+                    false if grows(-ratio) => "stable",
+                    false => "undamped",
+                };
+                format!(
+                    "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{verdict}</td></tr>\n",
+                    k + 1,
+                    at(frequencies),
+                    at(growths),
+                    at(ratios),
+                )
+            })
+            .collect();
+        out += &format!(
+            "<h3>Step {step}</h3>\n<div class=\"wide\"><table class=\"figures\"><thead><tr><th scope=\"col\">mode</th><th scope=\"col\">frequency</th>\
+             <th scope=\"col\">growth</th><th scope=\"col\">damping ratio</th><th scope=\"col\"></th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
+        );
+        for svg in crate::plot::couplings(results, step)? {
+            out += &format!("<figure class=\"along\">{svg}</figure>\n");
+        }
+    }
+    Ok(out)
 }
 
 /// What the view needs of shapes: their descriptions, and packed arrays by their keys.
@@ -37,10 +74,7 @@ pub fn pack(
     limit: u64,
     notes: &mut Vec<String>,
 ) -> Result<Shapes, Error> {
-    let mut shapes = Vec::new();
-    for step in 1..=results.steps() {
-        shapes.extend(listed(&results.directory, step)?);
-    }
+    let shapes = shapes::all(results)?;
     let room = usize::try_from(limit / (12 * skin.points.len().max(1)) as u64);
     let kept = fastest(&shapes, room.unwrap_or(usize::MAX).max(1));
     if kept.len() < shapes.len() {
@@ -71,36 +105,6 @@ fn fastest(shapes: &[Shape], room: usize) -> Vec<usize> {
     order.truncate(room);
     order.sort_unstable();
     order
-}
-
-/// The shapes that a step has written.
-fn listed(directory: &Path, step: usize) -> Result<Vec<Shape>, Error> {
-    let list = directory.join(format!("modes-{step}.pvd"));
-    if !list.is_file() {
-        return Ok(Vec::new());
-    }
-    let table = directory.join(format!("modes-{step}.csv"));
-    let table = table.is_file().then(|| csv::read(&table)).transpose()?;
-    let column = |name: &str, k: usize| {
-        let values = table.as_ref().and_then(|t| t.column(name));
-        values.and_then(|v| v.get(k).copied())
-    };
-    let all = pvd::read(&list)?.into_iter().enumerate();
-    let shapes = all.map(|(k, (at, file))| {
-        let growth = column("growth", k).unwrap_or(0.0);
-        let label = match column("frequency", k) {
-            Some(f) if growth == 0.0 => format!("step {step}, mode {}: {f:.6}", k + 1),
-            Some(f) => format!("step {step}, mode {}: {f:.6}, growth {growth:.4}", k + 1),
-            // Answers to harmonic loads are listed by their frequency.
-            None => format!("step {step}, answer at {at}"),
-        };
-        Shape {
-            label,
-            growth,
-            file,
-        }
-    });
-    Ok(shapes.collect())
 }
 
 /// How many parts a shape has, and its displacements at the points of the skin, part by part, the largest of them one.
@@ -136,8 +140,11 @@ mod tests {
     #[test]
     fn what_grows_fastest_is_kept_in_its_order() {
         let shape = |growth: f64| Shape {
+            step: 1,
+            mode: 1,
             label: String::new(),
             growth,
+            unstable: growth > 0.0,
             file: String::new(),
         };
         let shapes = [1.0, -2.0, 5.0, 3.0].map(shape);

@@ -22,12 +22,22 @@ const POLICY: &str =
 const VIEW_BODY: &str = include_str!("../../assets/view.html");
 const HISTORY_BODY: &str = include_str!("../../assets/history.html");
 
+/// Sections that are ready.
+pub struct Drawn {
+    /// Tables of modes.
+    pub modes: String,
+    /// What interfaces carry, as SVG.
+    pub along: Vec<String>,
+    /// Vibrations over time and frequency, as SVG.
+    pub waterfalls: Vec<String>,
+}
+
 /// Writes the page.
 pub fn write(
     results: &Results,
     model: &Packed,
     history: &Packed,
-    [along, waterfalls]: [&[String]; 2],
+    drawn: &Drawn,
     notes: &[String],
 ) -> String {
     let title = results.title();
@@ -40,7 +50,7 @@ pub fn write(
          <link rel=\"icon\" href=\"data:,\">\n\
          <title>{shown}</title>\n<style>{PLOT_STYLE}\n{STYLE}</style>\n</head>\n<body>\n"
     );
-    page += &facts::header(results, &shown);
+    page += &facts::header(results, &shown, !drawn.modes.is_empty());
     page += "<main>\n<p id=\"trouble\" role=\"alert\" hidden></p>\n\
              <noscript><p class=\"note\">The 3D view and the plots need JavaScript.</p></noscript>\n";
     page += &notes_of(notes);
@@ -65,11 +75,12 @@ pub fn write(
         all.map(|svg| format!("<figure class=\"along\">{svg}</figure>\n"))
             .collect()
     };
-    section("along", "Along the interfaces", figures(along));
+    section("along", "Along the interfaces", figures(&drawn.along));
+    section("modes", "Modes", drawn.modes.clone());
     section(
         "vibration",
         "Vibration over time and frequency",
-        figures(waterfalls),
+        figures(&drawn.waterfalls),
     );
     section("solved", "What was solved", problem::section(results));
     section("quality", "Quality", quality::section(results));

@@ -47,7 +47,8 @@ pub fn unit(a: Vec3) -> Vec3 {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
     right: Vec3,
-    up: Vec3,
+    /// Upwards in the picture.
+    pub up: Vec3,
     /// Towards the eye.
     pub out: Vec3,
 }

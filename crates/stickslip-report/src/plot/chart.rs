@@ -34,81 +34,85 @@ pub struct Chart<'a> {
     pub to: f64,
     /// Names and values.
     pub lines: Vec<(&'a str, &'a [f64])>,
+    /// Names and values along an axis of their own at the right.
+    pub right: Vec<(&'a str, &'a [f64])>,
     /// The status at each value of the axis; empty for none.
     pub statuses: &'a [f64],
 }
 
-impl Chart<'_> {
-    /// Draws it; `None` if the lines hold no numbers.
-    pub fn draw(&self, size: [u32; 2], canvas: &mut dyn Canvas) -> Option<()> {
-        let (x, lines) = (self.x, &self.lines);
-        let [width, height] = size.map(f64::from);
-        let em = (width.min(height * 1.4) / 62.0).clamp(9.0, 60.0);
-        let spread = |low: f64, high: f64, room: f64| {
-            if high > low {
-                return [low - room * (high - low), high + room * (high - low)];
-            }
-            let half = if low == 0.0 { 1.0 } else { 0.1 * low.abs() };
-            [low - half, high + half]
-        };
-        let low = self.from;
-        let high = self.to;
-        let [x0, x1] = spread(low, high, 0.0);
+/// A vertical axis: what its ends stand for, its ticks with their labels, and how wide these are.
+struct Side {
+    ends: [f64; 2],
+    labels: Vec<(f64, String)>,
+    wide: f64,
+}
+
+/// The ends of an axis for values between these, with room at both in parts of it.
+fn spread([low, high]: [f64; 2], room: f64) -> [f64; 2] {
+    if high > low {
+        return [low - room * (high - low), high + room * (high - low)];
+    }
+    let half = if low == 0.0 { 1.0 } else { 0.1 * low.abs() };
+    [low - half, high + half]
+}
+
+impl<'a> Chart<'a> {
+    /// The axis of some lines; `None` if they hold no numbers in the part that is shown.
+    fn side(&self, lines: &[(&'a str, &'a [f64])], em: f64) -> Option<Side> {
         let inside = |i: usize| (self.from..=self.to).contains(&self.x[i]);
         let all = lines.iter().flat_map(|(_, y)| y.iter().enumerate());
         let all = all.filter(|(i, _)| inside(*i)).map(|(_, y)| *y);
-        let [low, high] = crate::field::range(all)?;
-        let [y0, y1] = spread(low, high, 0.05);
-        let labels: Vec<(f64, String)> = axis::ticks(y0, y1, 7)
+        let ends = spread(crate::field::range(all)?, 0.05);
+        let labels: Vec<(f64, String)> = axis::ticks(ends[0], ends[1], 7)
             .into_iter()
             .map(|t| (t, axis::number(t, 5)))
             .collect();
-        let widest = labels
-            .iter()
-            .map(|(_, text)| text_width(text, em))
-            .fold(0.0, f64::max);
-        // Title, legend, plot, axis.
+        let wide = labels.iter().map(|(_, text)| text_width(text, em));
+        Some(Side {
+            ends,
+            wide: wide.fold(0.0, f64::max),
+            labels,
+        })
+    }
+
+    /// Draws it; `None` if the lines hold no numbers.
+    pub fn draw(&self, size: [u32; 2], canvas: &mut dyn Canvas) -> Option<()> {
+        let [width, height] = size.map(f64::from);
+        let em = (width.min(height * 1.4) / 62.0).clamp(9.0, 60.0);
+        let [x0, x1] = spread([self.from, self.to], 0.0);
+        let own = self.side(&self.lines, em)?;
+        let other = self.side(&self.right, em);
         let margin = 1.6 * em;
-        let title = shorten(self.title, 1.35 * em, width - 2.0 * margin);
-        canvas.text(
-            [margin, 2.1 * em],
-            &title,
-            1.35 * em,
-            Anchor::Start,
-            INK,
-            false,
-        );
-        let mut top = 3.9 * em;
-        if !self.words.is_empty() {
-            canvas.text(
-                [margin, 3.7 * em],
-                self.words,
-                em,
-                Anchor::Start,
-                SOFT,
-                false,
-            );
-            top += 1.8 * em;
-        }
-        let legend_end = legend(lines, [margin, top], width - margin, em, canvas);
-        let (left, top) = (margin + widest + 0.8 * em, legend_end + 1.2 * em);
-        let (right, bottom) = (
-            width - margin,
-            height
-                - if self.statuses.is_empty() {
-                    4.2 * em
-                } else {
-                    8.6 * em
-                },
-        );
+        let top = self.headline(margin, [width, em], canvas);
+        let right_names: Vec<String> = (self.right.iter())
+            .map(|(name, _)| format!("{name} (right)"))
+            .collect();
+        let names = self.lines.iter().map(|(name, _)| *name);
+        let names: Vec<&str> = names
+            .chain(right_names.iter().map(String::as_str))
+            .collect();
+        let legend_end = legend(&names, [margin, top], width - margin, em, canvas);
+        let (left, top) = (margin + own.wide + 0.8 * em, legend_end + 1.2 * em);
+        let right = width - margin - other.as_ref().map_or(0.0, |side| side.wide + 0.8 * em);
+        let below = if self.statuses.is_empty() { 4.2 } else { 8.6 };
+        let bottom = height - below * em;
         let px = |v: f64| left + (v - x0) / (x1 - x0) * (right - left);
-        let py = |v: f64| bottom - (v - y0) / (y1 - y0) * (bottom - top);
-        for (tick, label) in &labels {
-            let y = py(*tick);
+        let place = |side: &Side, v: f64| {
+            bottom - (v - side.ends[0]) / (side.ends[1] - side.ends[0]) * (bottom - top)
+        };
+        for (tick, label) in &own.labels {
+            let y = place(&own, *tick);
             let pen = Pen::new(if *tick == 0.0 { SOFT } else { GRID }, 0.07 * em);
             canvas.line(&[[left, y], [right, y]], pen);
             let at = [left - 0.6 * em, y + 0.36 * em];
             canvas.text(at, label, em, Anchor::End, SOFT, false);
+        }
+        for (tick, label) in other.iter().flat_map(|side| &side.labels) {
+            let y = other.as_ref().map_or(0.0, |side| place(side, *tick));
+            let dash = [[right, y], [right + 0.3 * em, y]];
+            canvas.line(&dash, Pen::new(SOFT, 0.1 * em));
+            let at = [right + 0.6 * em, y + 0.36 * em];
+            canvas.text(at, label, em, Anchor::Start, SOFT, false);
         }
         for tick in axis::ticks(x0, x1, 8) {
             let x = px(tick);
@@ -116,26 +120,37 @@ impl Chart<'_> {
             let at = [x, bottom + 1.5 * em];
             canvas.text(at, &axis::number(tick, 5), em, Anchor::Middle, SOFT, false);
         }
-        let frame = [[left, top], [left, bottom], [right, bottom]];
+        let mut frame = vec![[left, top], [left, bottom], [right, bottom]];
+        frame.extend(other.as_ref().map(|_| [right, top]));
         canvas.line(&frame, Pen::new(SOFT, 0.1 * em));
         let at = [(left + right) / 2.0, bottom + 3.2 * em];
         canvas.text(at, self.along, 1.05 * em, Anchor::Middle, INK, false);
-        for (i, (_, y)) in lines.iter().enumerate() {
-            for run in runs(x, y, [self.from, self.to]) {
-                let points: Vec<[f64; 2]> = run.iter().map(|&[x, y]| [px(x), py(y)]).collect();
-                canvas.line(&points, pen(i, em));
-                if points.len() <= 60 {
-                    for [x, y] in points {
-                        let r = 0.22 * em;
-                        canvas.rectangle([x - r, y - r], [2.0 * r, 2.0 * r], INKS[i % INKS.len()]);
-                    }
-                }
+        let lines = self.lines.iter().map(|(_, y)| (*y, Some(&own)));
+        let lines = lines.chain(self.right.iter().map(|(_, y)| (*y, other.as_ref())));
+        for (i, (y, side)) in lines.enumerate() {
+            let Some(side) = side else { continue };
+            for run in runs(self.x, y, [self.from, self.to]) {
+                let points = run.iter().map(|&[x, y]| [px(x), place(side, y)]);
+                curve(&points.collect::<Vec<_>>(), i, em, canvas);
             }
         }
         if !self.statuses.is_empty() {
             self.band([left, right], bottom + 4.4 * em, &px, em, canvas);
         }
         Some(())
+    }
+
+    /// Draws title and words; returns where they end.
+    fn headline(&self, margin: f64, [width, em]: [f64; 2], canvas: &mut dyn Canvas) -> f64 {
+        let size = 1.35 * em;
+        let title = shorten(self.title, size, width - 2.0 * margin);
+        canvas.text([margin, 2.1 * em], &title, size, Anchor::Start, INK, false);
+        if self.words.is_empty() {
+            return 3.9 * em;
+        }
+        let at = [margin, 3.7 * em];
+        canvas.text(at, self.words, em, Anchor::Start, SOFT, false);
+        5.7 * em
     }
 
     /// The band of statuses, each point as wide as half the way to its neighbours, and what the colours mean.
@@ -177,6 +192,17 @@ impl Chart<'_> {
     }
 }
 
+/// Draws a line, with a mark at each of its points where they are few.
+fn curve(points: &[[f64; 2]], i: usize, em: f64, canvas: &mut dyn Canvas) {
+    canvas.line(points, pen(i, em));
+    if points.len() <= 60 {
+        for [x, y] in points {
+            let r = 0.22 * em;
+            canvas.rectangle([x - r, y - r], [2.0 * r, 2.0 * r], INKS[i % INKS.len()]);
+        }
+    }
+}
+
 fn pen(i: usize, em: f64) -> Pen {
     Pen {
         colour: INKS[i % INKS.len()],
@@ -187,16 +213,10 @@ fn pen(i: usize, em: f64) -> Pen {
 }
 
 /// Draws the names; returns where they end.
-fn legend(
-    lines: &[(&str, &[f64])],
-    at: [f64; 2],
-    right: f64,
-    em: f64,
-    canvas: &mut dyn Canvas,
-) -> f64 {
+fn legend(names: &[&str], at: [f64; 2], right: f64, em: f64, canvas: &mut dyn Canvas) -> f64 {
     let [left, mut y] = at;
     let mut x = left;
-    for (i, (name, _)) in lines.iter().enumerate() {
+    for (i, name) in names.iter().enumerate() {
         let name = shorten(name, em, right - left - 2.2 * em);
         let wide = 2.2 * em + text_width(&name, em);
         if x > left && x + wide > right {

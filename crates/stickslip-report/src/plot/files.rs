@@ -3,12 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use stickslip::Error;
-use stickslip::io::vtu;
 
 use super::picture::When;
 use crate::draw::{self, Canvas};
 use crate::field::{self, Interest};
-use crate::results::{Frame, Results, fault};
+use crate::results::{Results, fault};
 use crate::sheet::latest_largest;
 
 /// Sizes of pictures that are made `[pixels]`.
@@ -34,7 +33,11 @@ pub fn canvas(file: &Path, size: [u32; 2]) -> Result<Box<dyn Canvas>, Error> {
 /// The time of interest of a field; that at which contact presses most if none is named.
 fn of_interest(results: &Results, name: Option<&str>) -> Result<usize, Error> {
     let last = results.frames.len() - 1;
-    let arrays = vtu::read(&results.frames[last].file)?.arrays;
+    if results.frames[last].phase.is_some() && name.is_none() {
+        // The real part.
+        return Ok(0);
+    }
+    let arrays = results.points(last)?.arrays;
     let field = name.and_then(|name| field::named(&field::with_invariants(&arrays), name));
     let Some(field) = field else {
         return results.of_peak();
@@ -43,14 +46,14 @@ fn of_interest(results: &Results, name: Option<&str>) -> Result<usize, Error> {
         Interest::Pressure => results.of_peak(),
         Interest::End => Ok(last),
         Interest::Largest => {
-            let largest = |frame: &Frame| {
-                let points = vtu::read(&frame.file)?;
+            let largest = |frame: usize| {
+                let points = results.points(frame)?;
                 let array = points.arrays.get(&field.array);
                 let values = array.map_or(0..0, |_| 0..points.points.len());
                 let sizes = values.filter_map(|p| Some(field.value(array?, p).abs()));
                 Ok(sizes.filter(|v| v.is_finite()).fold(0.0, f64::max))
             };
-            let all: Result<Vec<f64>, Error> = results.frames.iter().map(largest).collect();
+            let all: Result<Vec<f64>, Error> = (0..=last).map(largest).collect();
             Ok(latest_largest(&all?))
         }
     }

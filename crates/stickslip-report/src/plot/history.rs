@@ -11,16 +11,28 @@ use super::regimes::column;
 use crate::draw::Canvas;
 use crate::results::{Results, fault};
 
+/// Which columns are drawn.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Columns {
+    /// Those along the axis at the left.
+    pub left: Vec<String>,
+    /// Those along an axis of their own at the right.
+    pub right: Vec<String>,
+    /// That along the horizontal axis.
+    pub against: String,
+    /// What is written along it; the name of the column if empty.
+    pub label: String,
+}
+
 /// Draws columns against another.
 ///
 /// # Errors
 /// [`Error::Io`] if there is no history or no such column.
-pub fn draw(
+pub fn draw<'c>(
     results: &Results,
-    table: &Table,
+    table: &'c Table,
     file: &str,
-    names: &[String],
-    against: &str,
+    columns: &'c Columns,
     size: [u32; 2],
     canvas: &mut dyn Canvas,
 ) -> Result<(), Error> {
@@ -39,11 +51,13 @@ pub fn draw(
             )
         })
     };
+    let against = columns.against.as_str();
     let x = find(against)?;
-    let lines: Vec<(&str, &[f64])> = names
-        .iter()
-        .map(|name| Ok((name.as_str(), find(name)?)))
-        .collect::<Result<_, Error>>()?;
+    let lines = |names: &'c [String]| -> Result<Vec<(&'c str, &'c [f64])>, Error> {
+        let names = names.iter();
+        let each = names.map(|name| Ok((name.as_str(), find(name)?)));
+        each.collect()
+    };
     let nothing = || fault(&results.directory, "the columns hold no numbers");
     let [low, high] = crate::field::range(x.iter().copied()).ok_or_else(nothing)?;
     // A time that begins just after zero begins at zero.
@@ -56,10 +70,14 @@ pub fn draw(
         title: &results.title(),
         words: "",
         x,
-        along: against,
+        along: match columns.label.as_str() {
+            "" => against,
+            label => label,
+        },
         from: low,
         to: high,
-        lines,
+        lines: lines(&columns.left)?,
+        right: lines(&columns.right)?,
         statuses: &[],
     };
     chart.draw(size, canvas).ok_or_else(nothing)
@@ -120,6 +138,7 @@ pub fn modes(
         from,
         to,
         lines: names.zip(values.iter().map(Vec::as_slice)).collect(),
+        right: Vec::new(),
         statuses: &[],
     };
     chart.draw(size, canvas).ok_or_else(nothing)

@@ -12,10 +12,12 @@ mod history;
 mod legend;
 mod marks;
 mod paint;
+mod path;
 mod picture;
 mod raster;
 mod regimes;
 mod scene;
+mod script;
 mod statistics;
 mod symbols;
 mod words;
@@ -26,8 +28,9 @@ use std::path::{Path, PathBuf};
 use stickslip::Error;
 use stickslip::io::write_atomically;
 
-use crate::draw::{Canvas, Svg};
+use crate::draw::{Canvas, Format, Motion, Png, Svg};
 use crate::results::{Results, fault};
+use crate::shapes;
 
 pub(crate) use along::drawings;
 use files::{canvas, chosen, numbered};
@@ -35,6 +38,8 @@ use files::{canvas, chosen, numbered};
 pub use along::{Along, along};
 pub use camera::View;
 pub use facts::Facts;
+pub use history::Columns;
+pub use path::Line;
 pub use picture::{Apart, Colours, Picture, Plane, Units, When, Zoom};
 pub use symbols::Acts;
 pub(crate) use zoom::scale;
@@ -48,15 +53,8 @@ pub fn picture(
     file: Option<&Path>,
     wanted: &Picture,
 ) -> Result<(Vec<PathBuf>, Vec<String>), Error> {
-    let results = Results::open(directory)?;
+    let results = opened(directory, wanted)?;
     let file = file.map_or_else(|| directory.join("plot.png"), Path::to_path_buf);
-    let count = results.frames.len();
-    if count == 0 {
-        return Err(fault(
-            directory,
-            "no fields were written: there is nothing to draw",
-        ));
-    }
     let frames = chosen(&results, wanted.when, wanted.field.as_deref())?;
     // Before anything is read: a wrong ending or size is said at once.
     canvas(&file, wanted.size)?;
@@ -75,12 +73,39 @@ pub fn picture(
     Ok((written, scene.notes))
 }
 
+/// Writes scripts that draw the pictures of the bodies with PyVista, beside them: `plot.py` for `plot.png`; returns the files written.
+///
+/// # Errors
+/// As [`picture`].
+pub fn scripts(
+    directory: &Path,
+    file: Option<&Path>,
+    wanted: &Picture,
+) -> Result<Vec<PathBuf>, Error> {
+    let results = opened(directory, wanted)?;
+    let file = file.map_or_else(|| directory.join("plot.png"), Path::to_path_buf);
+    let frames = chosen(&results, wanted.when, wanted.field.as_deref())?;
+    let scene = scene::Scene::new(&results, wanted, &frames)?;
+    let mut written = Vec::new();
+    for &frame in &frames {
+        let file = match wanted.when {
+            When::All => numbered(&file, frame + 1),
+            _ => file.clone(),
+        };
+        let file = file.with_extension("py");
+        let text = scene.script(frame, wanted, &file);
+        write_atomically(&file, text.as_bytes())?;
+        written.push(file);
+    }
+    Ok(written)
+}
+
 /// What the pictures of the bodies say, a time each: they are drawn from these.
 ///
 /// # Errors
 /// As [`picture`], but that nothing is written.
 pub fn facts(directory: &Path, wanted: &Picture) -> Result<Vec<Facts>, Error> {
-    let results = Results::open(directory)?;
+    let results = opened(directory, wanted)?;
     let frames = chosen(&results, wanted.when, wanted.field.as_deref())?;
     let scene = scene::Scene::new(&results, wanted, &frames)?;
     let draw = |frame: &usize| {
@@ -90,6 +115,69 @@ pub fn facts(directory: &Path, wanted: &Picture) -> Result<Vec<Facts>, Error> {
     frames.iter().map(draw).collect()
 }
 
+/// Results with something to draw: fields, or the shape of a mode.
+fn opened(directory: &Path, wanted: &Picture) -> Result<Results, Error> {
+    let results = Results::open(directory)?;
+    let results = match &wanted.mode {
+        Some(name) => shapes::at_phases(&results, name, PHASES)?,
+        None => results,
+    };
+    if results.frames.is_empty() {
+        return Err(fault(
+            directory,
+            "no fields were written: there is nothing to draw",
+        ));
+    }
+    Ok(results)
+}
+
+/// Pictures of a cycle of a mode.
+const PHASES: usize = 24;
+
+/// Draws the bodies in motion, a picture for each time at which fields were written or for each phase of a mode, into an animated PNG or a GIF that shows so many
+/// pictures a second; returns what is to be said about it.
+///
+/// # Errors
+/// As [`picture`]; and if there is only one time.
+pub fn animate(
+    directory: &Path,
+    file: &Path,
+    wanted: &Picture,
+    rate: f64,
+) -> Result<Vec<String>, Error> {
+    let Some(format) = Format::of(file) else {
+        let name = file.with_extension("png");
+        return Err(fault(
+            file,
+            format!(
+                "motion is written as .png (animated PNG) or .gif; other programs make films of that: `ffmpeg -i {0} {1}`",
+                name.display(),
+                name.with_extension("mp4").display()
+            ),
+        ));
+    };
+    let results = opened(directory, wanted)?;
+    let count = results.frames.len();
+    if count < 2 {
+        return Err(fault(
+            directory,
+            "fields were written at one time only, and nothing moves: `output.fields` says at how many",
+        ));
+    }
+    let frames: Vec<usize> = (0..count).collect();
+    // A wrong size is said at once.
+    canvas(&file.with_extension("png"), wanted.size)?;
+    let scene = scene::Scene::new(&results, wanted, &frames)?;
+    let mut motion = Motion::new(format, wanted.size, rate);
+    for &frame in &frames {
+        let mut picture = Png::new(wanted.size).expect("its size was checked");
+        scene.draw(frame, wanted.size, &mut picture)?;
+        motion.push(&picture);
+    }
+    write_atomically(file, &motion.finish())?;
+    Ok(scene.notes)
+}
+
 /// Plots columns of the history against another; returns the file written.
 ///
 /// # Errors
@@ -97,8 +185,7 @@ pub fn facts(directory: &Path, wanted: &Picture) -> Result<Vec<Facts>, Error> {
 pub fn columns(
     directory: &Path,
     file: Option<&Path>,
-    names: &[String],
-    against: &str,
+    columns: &Columns,
     size: [u32; 2],
 ) -> Result<PathBuf, Error> {
     let results = Results::open(directory)?;
@@ -106,14 +193,48 @@ pub fn columns(
     let mut canvas = canvas(&file, size)?;
     let table = &results.history;
     let drawn_on = canvas.as_mut();
+    history::draw(&results, table, "history.csv", columns, size, drawn_on)?;
+    write_atomically(&file, &canvas.finish())?;
+    Ok(file)
+}
+
+/// Draws a field along a line through the bodies, a line a time, or writes the table of these where the name ends with .csv; returns the file written.
+///
+/// # Errors
+/// [`Error::Io`] if there is no such field or time, the line meets no body, or the file cannot be written.
+pub fn path(
+    directory: &Path,
+    file: Option<&Path>,
+    line: &Line,
+    size: [u32; 2],
+) -> Result<PathBuf, Error> {
+    let results = Results::open(directory)?;
+    let file = file.map_or_else(|| directory.join("path.png"), Path::to_path_buf);
+    if results.frames.is_empty() {
+        return Err(fault(
+            directory,
+            "no fields were written: there is nothing to draw",
+        ));
+    }
+    let table = path::table(&results, line)?;
+    if along::is_table(&file) {
+        stickslip::io::csv::write(&file, &table)?;
+        return Ok(file);
+    }
+    let mut canvas = canvas(&file, size)?;
+    let columns = Columns {
+        left: table.names[1..].to_vec(),
+        right: Vec::new(),
+        against: "S".into(),
+        label: "length along the line".into(),
+    };
     history::draw(
         &results,
-        table,
-        "history.csv",
-        names,
-        against,
+        &table,
+        "the line",
+        &columns,
         size,
-        drawn_on,
+        canvas.as_mut(),
     )?;
     write_atomically(&file, &canvas.finish())?;
     Ok(file)
@@ -127,8 +248,7 @@ pub fn table(
     directory: &Path,
     file: Option<&Path>,
     name: &str,
-    names: &[String],
-    against: &str,
+    columns: &Columns,
     size: [u32; 2],
 ) -> Result<PathBuf, Error> {
     let results = Results::open(directory)?;
@@ -139,7 +259,7 @@ pub fn table(
     );
     let mut canvas = canvas(&file, size)?;
     let drawn_on = canvas.as_mut();
-    history::draw(&results, &table, name, names, against, size, drawn_on)?;
+    history::draw(&results, &table, name, columns, size, drawn_on)?;
     write_atomically(&file, &canvas.finish())?;
     Ok(file)
 }
@@ -178,6 +298,23 @@ pub fn stability(
 /// [`Error::Io`] if there is no such table or column, or the file cannot be written.
 pub fn waterfall(table: &Path, file: Option<&Path>, size: [u32; 2]) -> Result<PathBuf, Error> {
     map(table, file, &regimes::WATERFALL, SPECTRA, size)
+}
+
+/// How the modes of a step depend on what its map varies, as SVG: frequencies and growth over the coefficient of friction; none where there is no map.
+pub(crate) fn couplings(results: &Results, step: usize) -> Result<Vec<String>, Error> {
+    let size = [1000, 520];
+    let file = results.directory.join(format!("modes-{step}-map.csv"));
+    if !file.is_file() {
+        return Ok(Vec::new());
+    }
+    let table = stickslip::io::csv::read(&file)?;
+    let mut out = Vec::new();
+    for what in ["frequency", "growth"] {
+        let mut canvas: Box<dyn Canvas> = Box::new(Svg::new(size));
+        history::modes(&file, &table, what, "factor", size, canvas.as_mut())?;
+        out.push(String::from_utf8_lossy(&canvas.finish()).into_owned());
+    }
+    Ok(out)
 }
 
 /// The axes of a waterfall.

@@ -121,6 +121,8 @@ pub struct Picture {
     pub field: Option<String>,
     /// Which times.
     pub when: When,
+    /// The mode whose shape is drawn in place of the fields: its number in the last step with modes, or `STEP:MODE`.
+    pub mode: Option<String>,
     /// Factor of the displacements; chosen if not given.
     pub scale: Option<f64>,
     /// From where one looks; chosen if not given.
@@ -154,6 +156,7 @@ impl Default for Picture {
         Picture {
             field: None,
             when: When::Peak,
+            mode: None,
             scale: None,
             view: None,
             bodies: Vec::new(),

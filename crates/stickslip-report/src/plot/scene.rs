@@ -1,9 +1,10 @@
 //! The bodies with a field in colour, as one picture.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use stickslip::Error;
-use stickslip::io::vtu::{self, Grid, PointFields};
+use stickslip::io::vtu::{Grid, PointFields};
 
 use super::apart::{self, Contact, Stage};
 use super::bodies::{self, Known, Shown};
@@ -15,7 +16,7 @@ use super::picture::{Picture, Zoom};
 use super::raster::{FINE, Raster};
 use super::symbols::{self, Acting, Acts, Symbol};
 use super::words::{INK, SOFT, shorten};
-use super::{axis, legend, statistics, zoom};
+use super::{axis, legend, script, statistics, zoom};
 use crate::colour::Scale;
 use crate::draw::{Anchor, Canvas, Pen};
 use crate::field::{self, Field};
@@ -45,11 +46,14 @@ pub struct Scene<'a> {
     /// Whether tractions are drawn as arrows.
     arrows: bool,
     units: Units,
+    /// The axis and the place below which cells are drawn.
+    cut: Option<(usize, f64)>,
     /// What was chosen for the reader.
     pub notes: Vec<String>,
 }
 
-fn choose(results: &Results, grid: &Grid, name: Option<&str>) -> Result<Option<Field>, Error> {
+/// The field that is named, or that pictures show if none is.
+pub fn choose(results: &Results, grid: &Grid, name: Option<&str>) -> Result<Option<Field>, Error> {
     let list = field::with_invariants(&grid.points.arrays);
     let Some(name) = name else {
         // Rigid bodies have no stress.
@@ -91,7 +95,7 @@ fn largest(results: &Results, frames: &[usize], grid: &Grid, skin: &Skin) -> Res
     let mut largest = 0.0f64;
     for &frame in frames {
         let file = &results.frames[frame].file;
-        let points = vtu::read(file)?;
+        let points = results.points(frame)?;
         if points.points.len() != grid.points.points.len() {
             return Err(fault(
                 file,
@@ -112,12 +116,15 @@ fn skins(
     wanted: &Picture,
     grid: &mut Grid,
     frame: usize,
-) -> Result<[Skin; 2], Error> {
+) -> Result<([Skin; 2], Option<(usize, f64)>), Error> {
     let whole = Skin::of(grid);
-    if let Some(plane) = wanted.cut {
+    let cut = wanted.cut.map(|plane| {
         let [low, high] = whole.bounds();
         let middle = (low[plane.axis] + high[plane.axis]) / 2.0;
-        zoom::keep_below(grid, plane.axis, plane.at.unwrap_or(middle));
+        (plane.axis, plane.at.unwrap_or(middle))
+    });
+    if let Some((axis, at)) = cut {
+        zoom::keep_below(grid, axis, at);
     }
     let skin = Skin::of(grid);
     if skin.triangles.is_empty() {
@@ -129,14 +136,14 @@ fn skins(
             },
         ));
     }
-    Ok([skin, whole])
+    Ok(([skin, whole], cut))
 }
 
 impl<'a> Scene<'a> {
     /// Reads what is to be drawn at these times.
     pub fn new(results: &'a Results, wanted: &Picture, frames: &[usize]) -> Result<Self, Error> {
         let mut grid = results.grid(frames[0])?;
-        let [skin, whole] = skins(results, wanted, &mut grid, frames[0])?;
+        let ([skin, whole], cut) = skins(results, wanted, &mut grid, frames[0])?;
         let field = choose(results, &grid, wanted.field.as_deref())?;
         let sheets: Vec<Vec<Sheet>> = (frames.iter())
             .map(|&frame| results.sheets(frame))
@@ -207,7 +214,12 @@ impl<'a> Scene<'a> {
             seen: zoom::NOTHING,
             acting,
             arrows: wanted.arrows.unwrap_or(contact && whole.dim == 2),
-            units: wanted.units.clone().unwrap_or_else(|| Units::of(results)),
+            units: match (&wanted.units, wanted.mode.is_some()) {
+                (Some(units), _) => units.clone(),
+                (None, true) => Units::default(),
+                (None, false) => Units::of(results),
+            },
+            cut,
             notes,
         };
         scene.survey(wanted, frames, &sheets)?;
@@ -225,7 +237,7 @@ impl<'a> Scene<'a> {
         let field = look.field.as_ref();
         let (mut all, mut bounds) = (Vec::new(), zoom::NOTHING);
         for &frame in frames {
-            let points = vtu::read(&self.results.frames[frame].file)?;
+            let points = self.results.points(frame)?;
             let values = values(&points, &look.skin, field);
             let weights = statistics::weights(&look.skin, &values, &look.shown);
             let drawn = (0..values.len()).filter(|&i| look.draws(i as u32));
@@ -337,7 +349,10 @@ impl<'a> Scene<'a> {
                 .acting
                 .as_ref()
                 .map(|a| Acts::of(&a.at(self.results.frames[frame].time))),
-            statuses: self.results.statuses_at(self.results.frames[frame].time),
+            statuses: match self.results.frames[frame].phase {
+                Some(_) => None,
+                None => self.results.statuses_at(self.results.frames[frame].time),
+            },
             strips: paint::strip_pieces(&self.look, &values).len(),
             ..Facts::default()
         };
@@ -365,6 +380,19 @@ impl<'a> Scene<'a> {
         facts
     }
 
+    /// A script at `file` that draws one of the times with PyVista.
+    pub fn script(&self, frame: usize, wanted: &Picture, file: &Path) -> String {
+        let drawn = script::Drawn {
+            look: &self.look,
+            wanted,
+            frame: &self.results.frames[frame],
+            names: &self.results.bodies(self.look.skin.ends.len()),
+            title: &self.results.title(),
+            cut: self.cut,
+        };
+        script::text(&drawn, file)
+    }
+
     /// Draws one of the times, and returns what the picture says.
     pub fn draw(
         &self,
@@ -372,7 +400,7 @@ impl<'a> Scene<'a> {
         size: [u32; 2],
         canvas: &mut dyn Canvas,
     ) -> Result<Facts, Error> {
-        let points = vtu::read(&self.results.frames[frame].file)?;
+        let points = self.results.points(frame)?;
         let [width, height] = size.map(f64::from);
         // All texts grow with the picture.
         let em = (width.min(height * 1.4) / 62.0).clamp(9.0, 60.0);
@@ -483,9 +511,13 @@ impl<'a> Scene<'a> {
             INK,
             false,
         );
-        let time = self.results.frames[frame].time;
-        let mut line = format!("time {}", axis::number(time, 5));
-        if self.look.scale != 1.0 {
+        let frame = &self.results.frames[frame];
+        let mut line = match &frame.phase {
+            Some(phase) => format!("{}, phase {:.0}°", phase.label, phase.angle.to_degrees()),
+            None => format!("time {}", axis::number(frame.time, 5)),
+        };
+        // The size of a mode is nobody's.
+        if self.look.scale != 1.0 && frame.phase.is_none() {
             line += &format!(", displacements × {}", axis::number(self.look.scale, 4));
         }
         if let Some(words) = &self.words {

@@ -33,7 +33,7 @@ pub(crate) mod shifted;
 
 pub use outcome::{
     Array, Export, FIGURES, FrictionMap, MapRow, ModalOutcome, Mode, Response, ResponseRow,
-    Sensitivity, TOLD, figures_of_mode,
+    Sensitivity, TOLD, figures_of_mode, grows,
 };
 
 use crate::error::RunError;

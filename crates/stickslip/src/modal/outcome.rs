@@ -116,8 +116,13 @@ pub struct Mode {
 impl Mode {
     /// Whether it grows, by more than rounding.
     pub fn is_unstable(&self) -> bool {
-        -self.damping_ratio > UNSTABLE_GROWTH
+        grows(self.damping_ratio)
     }
+}
+
+/// Whether a mode with this damping ratio grows, by more than rounding.
+pub fn grows(damping_ratio: f64) -> bool {
+    -damping_ratio > UNSTABLE_GROWTH
 }
 
 /// Frequencies and growth over friction, speed or load relative to that of the step.

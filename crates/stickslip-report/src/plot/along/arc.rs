@@ -172,6 +172,7 @@ pub fn draw(sheet: &Sheet, page: &Page, canvas: &mut dyn Canvas) -> Result<(), S
         from,
         to,
         lines: vec![(&names[0], &normal), (&names[1], &shear)],
+        right: Vec::new(),
         statuses: &status,
     };
     let nothing = || "the surface has no values at this time".to_string();

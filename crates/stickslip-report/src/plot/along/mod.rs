@@ -18,6 +18,7 @@ use super::{axis, files, history};
 use crate::draw::{Canvas, Svg};
 use crate::results::{Results, fault};
 use crate::sheet::Sheet;
+use crate::units::behind;
 
 /// How an interface is shown.
 #[derive(Debug, Clone, PartialEq)]
@@ -129,13 +130,27 @@ fn lines(
         return csv::write(file, &lines);
     }
     let mut canvas = files::canvas(file, wanted.size)?;
-    let columns = &lines.names[1..];
+    let columns = history::Columns {
+        left: lines.names[1..].to_vec(),
+        right: Vec::new(),
+        against: "S".into(),
+        label: format!(
+            "length along the surface{}",
+            behind(
+                &wanted
+                    .units
+                    .clone()
+                    .unwrap_or_else(|| Units::of(results))
+                    .length
+            )
+        ),
+    };
     let (size, drawn_on) = (wanted.size, canvas.as_mut());
-    history::draw(results, &lines, surface, columns, "S", size, drawn_on)?;
+    history::draw(results, &lines, surface, &columns, size, drawn_on)?;
     write_atomically(file, &canvas.finish())
 }
 
-fn is_table(file: &Path) -> bool {
+pub fn is_table(file: &Path) -> bool {
     let ending = file.extension();
     ending.is_some_and(|e| e.eq_ignore_ascii_case("csv"))
 }

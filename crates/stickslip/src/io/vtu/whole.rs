@@ -4,8 +4,10 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use crate::error::{Error, IoError};
+use crate::shape::ElementKind;
 
 use super::array::Array;
+use super::kinds;
 use super::read::{GRID, Outline, Piece, PointArray, PointFields, outline};
 
 /// A whole unstructured grid: points, cells, and the data on both.
@@ -28,6 +30,19 @@ impl Grid {
     pub fn cell(&self, i: usize) -> &[usize] {
         let start = if i == 0 { 0 } else { self.offsets[i - 1] };
         &self.connectivity[start..self.offsets[i]]
+    }
+
+    /// The element that a cell is, and its points in the order of the element; `None` of one outside of the family.
+    pub fn element(&self, i: usize) -> Option<(ElementKind, Vec<usize>)> {
+        let points = self.cell(i);
+        match kinds::cell(f64::from(self.types[i])) {
+            kinds::Cell::Solid(kind, _) if points.len() != kind.reference().nodes().len() => None,
+            kinds::Cell::Solid(kind, []) => Some((kind, points.to_vec())),
+            kinds::Cell::Solid(kind, order) => {
+                Some((kind, order.iter().map(|&k| points[k]).collect()))
+            }
+            _ => None,
+        }
     }
 }
 
