@@ -318,8 +318,9 @@ def page():
         heading = written_signature(name, thing) if inspect.isfunction(thing) or name == "Mesh" else name
         out += f"\n## `stickslip.{heading}`\n\n{prose(inspect.getdoc(thing))}\n"
         if name == "PlotOptions":
-            options = [(argument(o), kind_of_option(value, many), text) for o, value, many, text in _core.plot_options()]
-            out += "\n" + "".join(f"- `{o}: {kind}`: {prose(text)}.\n" for o, kind, text in options if o in thing.__annotations__)
+            options = [(argument(o), kind_of_option(value, many)) for o, value, many, _ in _core.plot_options()]
+            out += "\nWhat they do: [A picture](../report.md#a-picture).\n\n"
+            out += "".join(f"- `{o}: {kind}`\n" for o, kind in options if o in thing.__annotations__)
         elif name == "Summary":
             out += "\n" + "".join(f"- `{key}`: `{getattr(kind, '__forward_arg__', None) or named(kind)}`\n" for key, kind in thing.__annotations__.items())
         elif inspect.isclass(thing) and thing.__module__ != "stickslip._core":

@@ -32,7 +32,7 @@ tasks:
                             and try it where there is no compiler and no environment; or what has been built elsewhere. Says NOT RUN where
                             cargo-deny is not installed
   decks [FOLDER]            run decks with the numbers that CalculiX prints (NAME.inp, NAME.dat.ref; default: ../shared/decks/calculix)
-                            and write book/src/decks.md
+                            and write book/verification/src/decks.md
   digests FILE [--problems N] [DECKS]
                             run all tested examples, N random problems (default 60) and the decks of a folder (default as above), and write
                             digests of their histories, fields and other files to FILE; where FILE is there already, compare with it and list

@@ -32,7 +32,7 @@ pub fn run(arguments: &[String]) -> Result<(), String> {
         println!("{}", page::line(&outcome));
         outcomes.push(outcome);
     }
-    let page = workspace::root().join("book/src/decks.md");
+    let page = workspace::root().join("book/verification/src/decks.md");
     std::fs::write(&page, page::text(&outcomes)).map_err(|e| format!("{}: {e}", page.display()))
 }
 

@@ -1,13 +1,19 @@
-//! `cargo xtask book`: the book, and the pages of it that are generated.
+//! `cargo xtask book`: the two books, and the pages of them that are generated.
+//!
+//! `book` is for users, `book/verification` has every check with its numbers, measurements, and how the program works inside. In the first:
 //!
 //! - `reference/*.md`, the keys of the problem file, from `stickslip.schema.json`;
 //! - `reference/command-line.md`, from the help of the commands;
-//! - `reference/combinations.md`, from `stickslip models --matrix`;
+//! - `reference/combinations.md`, from `stickslip models --matrix`.
+//!
+//! In the second:
+//!
 //! - `verification.md`, from running all examples (`--verification` only, as that takes minutes).
 //!
 //! Generated pages are committed, so that they can be read where the sources are; tests fail when they are stale.
 
 mod commands;
+mod links;
 mod reference;
 mod verification;
 
@@ -20,7 +26,7 @@ use xtask::workspace;
 /// book needs neither a network nor another program.
 const VERSION: &str = "0.4.52";
 
-/// Writes the generated pages and builds the book into `target/book`.
+/// Writes the generated pages and builds the books into `target/book`, the second one inside of the first.
 pub fn build(what: &[String]) -> Result<(), String> {
     let (mut pages_only, mut measure, mut full) = (false, false, false);
     for argument in what {
@@ -44,25 +50,28 @@ pub fn build(what: &[String]) -> Result<(), String> {
     )?;
     if measure {
         write(
-            &source().join("verification.md"),
+            &workspace::root().join("book/verification/src/verification.md"),
             &verification::page(full)?,
         )?;
     }
     if pages_only {
         return Ok(());
     }
-    let status = Command::new(mdbook()?)
-        .arg("build")
-        .arg(workspace::root().join("book"))
-        .status()
-        .map_err(|e| format!("cannot run mdbook: {e}"))?;
-    if !status.success() {
-        return Err("the book does not build".to_string());
+    let mdbook = mdbook()?;
+    // The first one empties the folder.
+    for book in ["book", "book/verification"] {
+        let status = Command::new(&mdbook)
+            .arg("build")
+            .arg(workspace::root().join(book))
+            .status()
+            .map_err(|e| format!("cannot run mdbook: {e}"))?;
+        if !status.success() {
+            return Err(format!("{book} does not build"));
+        }
     }
-    println!(
-        "{}",
-        workspace::root().join("target/book/index.html").display()
-    );
+    let built = workspace::root().join("target/book");
+    links::connect(&built)?;
+    println!("{}", built.join("index.html").display());
     Ok(())
 }
 

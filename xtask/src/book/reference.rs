@@ -1,6 +1,6 @@
 //! The reference of the problem file, one page a table, from the JSON schema.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 use serde_json::{Map, Value};
@@ -19,13 +19,95 @@ pub fn pages() -> Result<Vec<(String, String)>, String> {
     let keys = schema.root["properties"]
         .as_object()
         .ok_or("the schema has no properties")?;
+    let tables = || {
+        keys.iter()
+            .filter_map(|(key, p)| Some((key, schema.target(p)?)))
+    };
+    // A table that is part of another page, too, is described on its own.
+    let mut described = tables()
+        .map(|(key, name)| (name, format!("{key}.md")))
+        .collect();
     let mut pages = vec![("problem-file.md".to_string(), schema.overview(keys))];
-    for (key, property) in keys {
-        if let Some(name) = schema.target(property) {
-            pages.push((format!("{key}.md"), schema.page(key, property, &name)));
-        }
+    for (key, name) in tables() {
+        let text = format!("# `{}`\n\n{NOTE}\n", title(key, &keys[key]));
+        let file = format!("{key}.md");
+        let mut page = Page {
+            text,
+            file: &file,
+            described: &mut described,
+        };
+        schema.section(&mut page, &Section::root(key, &name));
+        let text = page.text;
+        pages.push((file, text));
     }
     Ok(pages)
+}
+
+/// How the table of a key is opened in a problem file.
+fn title(key: &str, property: &Value) -> String {
+    match (
+        property["additionalProperties"].is_object(),
+        &property["type"],
+    ) {
+        (true, _) => format!("[{key}.NAME]"),
+        (_, Value::String(t)) if t == "array" => format!("[[{key}]]"),
+        _ => format!("[{key}]"),
+    }
+}
+
+/// A page that is being written.
+struct Page<'a> {
+    text: String,
+    file: &'a str,
+    /// Where each definition is described, on any page: each is described once.
+    described: &'a mut BTreeMap<String, String>,
+}
+
+impl Page<'_> {
+    /// Where a definition is described: where it is already, or else at a path of this page, where it then has to be written.
+    fn place(&mut self, definition: &str, path: &str) -> (String, bool) {
+        if let Some(place) = self.described.get(definition) {
+            return (place.clone(), false);
+        }
+        let place = format!("{}#{}", self.file, anchor(path));
+        self.described.insert(definition.to_string(), place.clone());
+        (place, true)
+    }
+}
+
+/// A definition that is to be described.
+struct Section {
+    path: String,
+    definition: String,
+    level: usize,
+    /// What the list of keys above has said about it.
+    said: String,
+}
+
+impl Section {
+    fn root(key: &str, definition: &str) -> Self {
+        Section {
+            path: key.to_string(),
+            definition: definition.to_string(),
+            level: 1,
+            said: String::new(),
+        }
+    }
+
+    fn below(&self, key: &str, definition: &str, said: &str) -> Self {
+        Section {
+            path: format!("{}.{key}", self.path),
+            definition: definition.to_string(),
+            level: (self.level + 1).min(4),
+            said: said.to_string(),
+        }
+    }
+}
+
+/// A key and what a list says about it.
+struct Said<'a> {
+    name: &'a str,
+    text: &'a str,
 }
 
 /// The schema, and how its parts are said in words.
@@ -46,14 +128,9 @@ impl Schema<'_> {
             | key | | required | |\n|---|---|---|---|\n";
         let required = required(self.root);
         for (key, property) in keys {
-            let named = match (
-                property["additionalProperties"].is_object(),
-                &property["type"],
-            ) {
-                (true, _) => format!("[`[{key}.NAME]`]({key}.md)"),
-                (_, Value::String(t)) if t == "array" => format!("[`[[{key}]]`]({key}.md)"),
-                _ if self.target(property).is_some() => format!("[`[{key}]`]({key}.md)"),
-                _ => format!("`{key}`"),
+            let named = match self.target(property) {
+                Some(_) => format!("[`{}`]({key}.md)", title(key, property)),
+                None => format!("`{key}`"),
             };
             let kind = match self.target(property) {
                 Some(_) => "table".to_string(),
@@ -73,112 +150,121 @@ impl Schema<'_> {
         page
     }
 
-    /// The page of a table of the problem file.
-    fn page(&self, key: &str, property: &Value, name: &str) -> String {
-        let title = match (
-            property["additionalProperties"].is_object(),
-            &property["type"],
-        ) {
-            (true, _) => format!("[{key}.NAME]"),
-            (_, Value::String(t)) if t == "array" => format!("[[{key}]]"),
-            _ => format!("[{key}]"),
-        };
-        let mut page = format!("# `{title}`\n\n{NOTE}\n");
-        let mut seen = BTreeSet::new();
-        self.section(&mut page, key, name, 1, &mut seen);
-        page
-    }
-
-    /// The text, keys and kinds of a definition, then those of what it refers to.
-    fn section(
-        &self,
-        page: &mut String,
-        path: &str,
-        name: &str,
-        level: usize,
-        seen: &mut BTreeSet<String>,
-    ) {
-        seen.insert(name.to_string());
-        let definition = self.definition(name);
-        page.push_str(&prose(&untitled(text(definition))));
-        page.push_str("\n\n");
-        let mut next: Vec<(String, String, String)> = Vec::new();
-        let mut later: Vec<(String, String, String)> = Vec::new();
-        if let Some(properties) = definition["properties"]
-            .as_object()
-            .filter(|p| !p.is_empty())
-        {
-            page.push_str("| key | type | unit | default | |\n|---|---|---|---|---|\n");
-            let required = required(definition);
-            for (key, property) in properties {
-                self.row(page, key, property, required.contains(key.as_str()));
-                if let Some(target) = self.target(property) {
-                    later.push((format!("{path}.{key}"), format!("`{key}`"), target));
-                }
-            }
-            page.push('\n');
+    /// The text, keys and kinds of a definition, then the definitions that it refers to.
+    fn section(&self, page: &mut Page, section: &Section) {
+        let definition = self.definition(&section.definition);
+        let what = untitled(text(definition));
+        if what != untitled(&section.said) {
+            let _ = writeln!(page.text, "{}\n", prose(&what));
+        }
+        let mut keys = Vec::new();
+        let required = required(definition);
+        for (key, property) in definition["properties"].as_object().into_iter().flatten() {
+            let table = self.target(property).filter(|t| self.words(t).is_none());
+            let link = self.link(
+                page,
+                section,
+                Said {
+                    name: key,
+                    text: text(property),
+                },
+                table,
+                &mut keys,
+            );
+            self.key(page, &link, property, required.contains(key.as_str()));
+        }
+        if !definition["properties"].is_null() && !page.text.ends_with("\n\n") {
+            page.text.push('\n');
         }
         let kinds = self.kinds(definition);
-        if !kinds.is_empty() {
-            page.push_str("One of\n\n| kind | |\n|---|---|\n");
-            for (kind, what, target) in &kinds {
-                let anchor = match target {
-                    Some(_) => format!("[`{kind}`](#{})", anchor(&format!("{path}.{kind}"))),
-                    None => format!("`{kind}`"),
-                };
-                let _ = writeln!(page, "| {anchor} | {} |", cell(what));
-                if let Some(target) = target {
-                    next.push((
-                        format!("{path}.{kind}"),
-                        format!("`{kind}`"),
-                        target.clone(),
-                    ));
-                }
-            }
-            page.push('\n');
-        }
         // What most come for is said first.
-        next.append(&mut later);
-        for (path, _, target) in next {
-            if self.words(&target).is_some() {
-                continue;
-            }
-            let marks = "#".repeat((level + 1).min(4));
-            let _ = writeln!(page, "{marks} <a id=\"{}\"></a>`{path}`\n", anchor(&path));
-            if seen.contains(&target) {
-                let _ = writeln!(
+        let mut next = Vec::new();
+        if !kinds.is_empty() {
+            page.text.push_str("One of\n\n");
+            for (kind, what, target) in &kinds {
+                let table = target.clone().filter(|t| !self.is_said(t, what));
+                let link = self.link(
                     page,
-                    "{}. Keys as above.\n",
-                    first(text(self.definition(&target)))
+                    section,
+                    Said {
+                        name: kind,
+                        text: what,
+                    },
+                    table,
+                    &mut next,
                 );
-                continue;
+                let _ = writeln!(page.text, "- {link}: {}", item(what));
             }
-            self.section(page, &path, &target, level + 1, seen);
+            page.text.push('\n');
+        }
+        next.append(&mut keys);
+        for below in next {
+            let (marks, path) = ("#".repeat(below.level), &below.path);
+            let _ = writeln!(
+                page.text,
+                "{marks} <a id=\"{}\"></a>`{path}`\n",
+                anchor(path)
+            );
+            self.section(page, &below);
         }
     }
 
-    fn row(&self, page: &mut String, key: &str, property: &Value, required: bool) {
-        let mut what = text(property).to_string();
-        if let Some(words) = self.target(property).and_then(|t| self.words(&t)) {
-            let list: Vec<String> = words
-                .iter()
-                .map(|(word, meaning)| format!("\n\n`\"{word}\"`: {meaning}"))
-                .collect();
-            what = format!("{what}{}", list.concat());
-        }
-        let default = match (&property["default"], required) {
-            (_, true) => "required".to_string(),
-            (Value::Null, _) => String::new(),
-            (Value::Object(map), _) if map.len() > 1 => "as below".to_string(),
-            (value, _) => format!("`{}`", toml(value)),
+    /// A key, as a link to where its table is described; one that is not described anywhere yet is to be written `later`.
+    fn link(
+        &self,
+        page: &mut Page,
+        section: &Section,
+        key: Said,
+        table: Option<String>,
+        later: &mut Vec<Section>,
+    ) -> String {
+        let Some(table) = table else {
+            return format!("`{}`", key.name);
         };
+        let below = section.below(key.name, &table, key.text);
+        let (place, new) = page.place(&table, &below.path);
+        if new {
+            later.push(below);
+        }
+        let place = place.strip_prefix(page.file).unwrap_or(&place);
+        format!("[`{}`]({place})", key.name)
+    }
+
+    /// Whether a definition has nothing but the text that stands in a list already.
+    fn is_said(&self, definition: &str, what: &str) -> bool {
+        let definition = self.definition(definition);
+        let empty = |key: &str| definition[key].as_object().is_none_or(Map::is_empty);
+        let parts = definition["oneOf"].is_null() && empty("properties");
+        parts && untitled(text(definition)) == untitled(what)
+    }
+
+    /// The entry of a key in the list of keys.
+    fn key(&self, page: &mut Page, link: &str, property: &Value, required: bool) {
+        let mut what = text(property).to_string();
+        let mut about = vec![self.kind(property)];
+        if let Some(unit) = unit(&what, self.root).map(str::to_string) {
+            what = what.replacen(&format!(" [{unit}]"), "", 1);
+            if unit != "1" && unit != "-" {
+                about.push(unit);
+            }
+        }
+        match (&property["default"], required) {
+            (_, true) => about.push("required".to_string()),
+            (Value::Null, _) => {}
+            (Value::Object(map), _) if map.len() > 1 => {}
+            (value, _) => about.push(format!("default `{}`", toml(value))),
+        }
+        let words = self.target(property).and_then(|t| self.words(&t));
+        let words = words.unwrap_or_default();
         let _ = writeln!(
-            page,
-            "| `{key}` | {} | {} | {default} | {} |",
-            self.kind(property),
-            unit(&what, self.root).unwrap_or_default(),
-            cell(&what)
+            page.text,
+            "- {link} ({}): {}",
+            about.join(", "),
+            item(&what)
         );
+        for (word, meaning) in words {
+            let _ = writeln!(page.text, "  - `\"{word}\"`: {}", item(&meaning));
+        }
     }
 
     /// `(name, text, definition)` of the kinds one of which is chosen by key.
@@ -335,10 +421,7 @@ fn unit<'t>(description: &'t str, root: &Value) -> Option<&'t str> {
             && !inside.contains([',', '"', '{', '`', '='])
             && !inside.is_empty()
         {
-            return Some(match inside {
-                "1" => "-",
-                other => other,
-            });
+            return Some(inside);
         }
     }
     None
@@ -368,6 +451,11 @@ fn cell(text: &str) -> String {
         .replace('|', "\\|")
 }
 
+/// A description as an entry of a list, on one line.
+fn item(text: &str) -> String {
+    prose(text).split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
 /// A description without the name of its table, which the title says.
 fn untitled(text: &str) -> String {
     let body = match text.split_once("]: ") {
@@ -379,11 +467,6 @@ fn untitled(text: &str) -> String {
         Some(letter) => letter.to_uppercase().chain(letters).collect(),
         None => String::new(),
     }
-}
-
-fn first(text: &str) -> String {
-    let sentence = text.split(['\n', ':']).next().unwrap_or("");
-    prose(sentence.trim_end_matches('.'))
 }
 
 fn anchor(path: &str) -> String {

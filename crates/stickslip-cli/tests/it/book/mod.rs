@@ -26,8 +26,17 @@ fn source() -> PathBuf {
     root().join("book/src")
 }
 
-/// All pages, as paths within the source of the book.
+/// The second book: verification and internals.
+fn second() -> PathBuf {
+    root().join("book/verification/src")
+}
+
+/// All pages of the book for users.
 fn pages() -> Vec<PathBuf> {
+    pages_of(&source())
+}
+
+fn pages_of(book: &Path) -> Vec<PathBuf> {
     fn collect(folder: &Path, out: &mut Vec<PathBuf>) {
         for entry in std::fs::read_dir(folder).expect("a folder of the book") {
             let path = entry.expect("an entry").path();
@@ -39,7 +48,7 @@ fn pages() -> Vec<PathBuf> {
         }
     }
     let mut out = Vec::new();
-    collect(&source(), &mut out);
+    collect(book, &mut out);
     out.sort();
     out
 }
@@ -48,9 +57,6 @@ fn pages() -> Vec<PathBuf> {
 fn generated(page: &Path) -> bool {
     let name = page.strip_prefix(source()).expect("a page");
     name.starts_with("reference")
-        || ["verification.md", "decks.md"]
-            .iter()
-            .any(|n| name == Path::new(n))
 }
 
 fn read(path: &Path) -> String {
@@ -222,7 +228,7 @@ fn commands_do_what_the_book_says() {
 fn formulas_are_ones_that_the_book_can_typeset() {
     let known = read(&source().join("katex/katex.min.js"));
     let mut seen = 0;
-    for page in pages() {
+    for page in [pages(), pages_of(&second())].concat() {
         let (text, name) = (read(&page), page.display());
         let blocks = blocks(&text);
         let blocks = blocks.iter().filter(|(marks, _)| marks == "math");
@@ -332,7 +338,8 @@ fn links(text: &str) -> Vec<String> {
 
 #[test]
 fn links_lead_to_pages_and_headings_that_exist() {
-    for page in pages() {
+    let books = [source(), second()].map(|book| book.canonicalize().expect("a book"));
+    for page in [pages(), pages_of(&second())].concat() {
         let here = page.parent().expect("a folder");
         for link in links(&read(&page)) {
             if link.starts_with("http") {
@@ -346,8 +353,8 @@ fn links_lead_to_pages_and_headings_that_exist() {
             assert!(target.is_file(), "{}: {link}", page.display());
             let inside = target
                 .canonicalize()
-                .is_ok_and(|t| t.starts_with(source().canonicalize().expect("the book")));
-            assert!(inside, "{}: {link} is not in the book", page.display());
+                .is_ok_and(|t| books.iter().any(|book| t.starts_with(book)));
+            assert!(inside, "{}: {link} is not in the books", page.display());
             if !heading.is_empty() {
                 let there = anchors(&read(&target));
                 assert!(there.contains(heading), "{}: {link}", page.display());
@@ -382,15 +389,33 @@ fn figures_of_examples_are_those_of_their_folders() {
 
 #[test]
 fn every_page_is_in_the_summary() {
-    let summary = read(&source().join("SUMMARY.md"));
-    for page in pages() {
-        let name = page.strip_prefix(source()).expect("a page");
-        let name = name.to_string_lossy();
-        assert!(
-            name == "SUMMARY.md" || summary.contains(&format!("({name})")),
-            "{name} is not in SUMMARY.md"
-        );
+    for book in [source(), second()] {
+        let summary = read(&book.join("SUMMARY.md"));
+        for page in pages_of(&book) {
+            let name = page.strip_prefix(&book).expect("a page");
+            let name = name.to_string_lossy();
+            assert!(
+                name == "SUMMARY.md" || summary.contains(&format!("({name})")),
+                "{name} is not in SUMMARY.md"
+            );
+        }
     }
+}
+
+/// The words that the book for users may have.
+const WORDS: usize = 70_000;
+
+#[test]
+fn the_book_for_users_is_not_longer_than_it_may_be() {
+    let words: usize = pages()
+        .iter()
+        .map(|page| read(page).split_whitespace().count())
+        .sum();
+    assert!(
+        words <= WORDS,
+        "{words} words: shorten pages, or move what only developers need to book/verification"
+    );
+    assert!(words > WORDS / 2, "only {words} words were counted");
 }
 
 #[test]

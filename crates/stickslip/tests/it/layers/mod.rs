@@ -277,7 +277,7 @@ fn comments_messages_and_pages_are_plain_english() {
     for (_, src) in crates() {
         texts(&src, ".rs", &mut files);
     }
-    texts(&workspace().join("book/src"), ".md", &mut files);
+    texts(&workspace().join("book"), ".md", &mut files);
     texts(&workspace().join("examples"), "README.md", &mut files);
     let pages = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md"];
     files.extend(pages.map(|page| workspace().join(page)));
