@@ -1,4 +1,4 @@
-//! What is said on standard error while an analysis goes on, and a sign of life where nothing has been said for a while.
+//! What is said on standard error while an analysis goes on, and a message where nothing has been printed for a while.
 
 use std::io::IsTerminal;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};

@@ -9,8 +9,8 @@ pub fn page(binary: &Path) -> Result<String, String> {
     let mut page = String::from(
         "# The command line\n\n<!-- Generated from `stickslip COMMAND --help` by `cargo xtask book`. -->\n\n",
     );
-    page += "Results and listings go to standard output, progress and diagnostics to standard error. Exit codes: 0 done; 1 the input is wrong, or runs of a \
-        sweep failed; 2 a check of `compare` or the quality gate fails, results are kept; 3 the analysis did not finish; 101 a fault of this program, which you are asked to report; 130 interrupted.\n";
+    page +=
+        "Results and listings go to standard output, progress and diagnostics to standard error.\n";
     sections(&mut page, binary, &[])?;
     Ok(page)
 }
@@ -23,7 +23,7 @@ pub fn combinations(binary: &Path) -> Result<String, String> {
         .map_err(|e| format!("cannot run {}: {e}", binary.display()))?;
     Ok(format!(
         "# What goes with what\n\n<!-- Generated from `stickslip models --matrix` by `cargo xtask book`. -->\n\n\
-         Columns are the ways in which a body is described, and friction laws that keep a state; a number points to the reason below. Refusals follow from the same table.\n\n{}",
+         Columns are kinds of bodies, and friction laws with a state. A number refers to the reason below; `stickslip check` refuses these combinations.\n\n{}",
         String::from_utf8_lossy(&output.stdout)
     ))
 }

@@ -123,8 +123,8 @@ impl Schema<'_> {
     /// The list of tables.
     fn overview(&self, keys: &Map<String, Value>) -> String {
         let mut page = format!("# The problem file\n\n{NOTE}\n");
-        page += "A problem file is [TOML](https://toml.io). Keys that are not listed here are refused. `NAME` stands for a name of your own. \
-            Units say what is multiplied with what: any consistent set of units will do, unless a key says otherwise.\n\n\
+        page += "A problem file is [TOML](https://toml.io). Other keys are errors. `NAME` stands for a name of your choice. \
+            Use any consistent set of units; the units of keys show their dimensions.\n\n\
             | key | | required | |\n|---|---|---|---|\n";
         let required = required(self.root);
         for (key, property) in keys {
@@ -177,7 +177,7 @@ impl Schema<'_> {
             page.text.push('\n');
         }
         let kinds = self.kinds(definition);
-        // What most come for is said first.
+        // Kinds come before the tables of other keys: most readers look for them.
         let mut next = Vec::new();
         if !kinds.is_empty() {
             page.text.push_str("One of\n\n");

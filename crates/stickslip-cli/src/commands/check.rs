@@ -9,15 +9,15 @@ use crate::failure::Outcome;
 use crate::input::Input;
 use crate::print;
 
-/// Read a problem file or a deck and report what is wrong with it, or what was understood.
+/// Read a problem file or a deck, and report errors, warnings and what was understood.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The problem file, or an input deck of Abaqus or CalculiX (`.inp`).
     file: PathBuf,
-    /// Change a value: path=value, for example interface.base.friction.coulomb.mu=0.3.
+    /// Change a value, for example interface.base.friction.coulomb.mu=0.3.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
-    /// Print the report as JSON: bodies, interfaces with their gaps, free motions, findings.
+    /// Print the report as JSON: bodies, interfaces with their gaps, rigid-body modes, findings.
     #[arg(long)]
     json: bool,
 }

@@ -8,7 +8,7 @@ use crate::failure::{CHECK, Failure, Outcome};
 use crate::given;
 use crate::print;
 
-/// Compare the results in a directory with expected values, or with those of another run.
+/// Compare results with expected values, or with those of another run.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -16,12 +16,12 @@ Examples:
   stickslip compare coarse.out fine.out                   histories, fields and interfaces: the largest differences, and where
   stickslip compare before.out after.out --relative 1e-6  exit code 2 if anything differs by more")]
 pub struct Arguments {
-    /// Directory of results, as written by `run`.
+    /// Result folder of a run.
     #[arg(value_hint = clap::ValueHint::DirPath)]
     directory: PathBuf,
-    /// What is expected, `expected.toml` beside the directory if not given; or the directory of another run.
+    /// Expected values (default: `expected.toml` beside the folder), or the result folder of another run.
     other: Option<PathBuf>,
-    /// The largest difference between two runs that passes, relative to the largest value of a quantity; what cannot be compared does not.
+    /// Largest allowed difference between two runs, relative to the largest value of a quantity; quantities that cannot be compared fail.
     #[arg(long, value_name = "R")]
     relative: Option<f64>,
 }

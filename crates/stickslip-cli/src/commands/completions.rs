@@ -7,7 +7,7 @@ use clap::{Arg, Command};
 use crate::failure::Outcome;
 use crate::print;
 
-/// Print the completions of this command for a shell.
+/// Print shell completions.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 bash:        stickslip completions bash > ~/.local/share/bash-completion/completions/stickslip

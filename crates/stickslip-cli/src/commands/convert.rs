@@ -10,8 +10,8 @@ use crate::failure::{Failure, Outcome};
 use crate::given;
 use crate::print;
 
-/// Convert a mesh between Gmsh (.msh), VTK (.vtu) and Abaqus or CalculiX (.inp), or a deck (.inp) to a problem file (.toml) and its
-/// mesh, by the endings of the names.
+/// Convert a mesh between Gmsh (.msh), VTK (.vtu) and Abaqus or CalculiX (.inp), or a deck (.inp) to a problem file (.toml) with its mesh. File endings
+/// choose the formats.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Numbers of points and cells, and sets of points, cells and facets, are kept. What cannot be kept is noted on \

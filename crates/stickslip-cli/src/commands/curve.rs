@@ -9,17 +9,17 @@ use crate::given;
 use crate::input::Input;
 use crate::print;
 
-/// Tabulate the laws of an interface alone, as CSV: pressure and shear limit against gap, shear against slip.
+/// Tabulate the laws of an interface as CSV: pressure and friction limit over the gap, shear traction over slip.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The problem file, or an input deck of Abaqus or CalculiX (`.inp`).
     file: PathBuf,
-    /// The interface; may be left out if there is only one.
+    /// The interface; optional if there is only one.
     interface: Option<String>,
-    /// Largest pressure of the table, in the unit of stress of the problem.
+    /// Largest pressure of the table, in the stress unit of the problem.
     #[arg(long, default_value_t = 1e8, value_parser = pressure)]
     pressure: f64,
-    /// Rows of the table.
+    /// Number of rows.
     #[arg(long, default_value_t = 21, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     rows: u32,
     /// Change a value: path=value.

@@ -24,19 +24,19 @@ const FILES: [(&str, &str); 2] = [
 const STORY: &str = "A steel pin is pressed into the bronze bush of an aluminium lug, pulled with 20 kN, and let go. Nothing but contact holds \
      the pin: its rim sticks, slips and lifts off as the load comes and goes.";
 
-/// Run an example that is part of this program: a pin in a lug, with its picture and its report, which is opened in the browser.
+/// Run a built-in example, a pin in a lug, and open its report in the browser.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-The folder has the problem (lug.toml) and its mesh, to be changed and run again, and the results in lug.out.
-The browser is the one that the environment variable BROWSER names, or that of the system.")]
+The folder gets the problem (lug.toml) with its mesh, to be changed and run again, and the results in lug.out.
+The environment variable BROWSER chooses the browser; default: that of the system.")]
 pub struct Arguments {
-    /// The folder to write; it is made where it is not there.
+    /// The folder to write; created if it does not exist.
     #[arg(default_value = "stickslip-demo")]
     directory: PathBuf,
     /// Do not open the report.
     #[arg(long)]
     no_open: bool,
-    /// Threads; all processors if not given. Results do not depend on it.
+    /// Number of threads; default: all processors. Results do not depend on it.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
     /// No progress on standard error.
@@ -79,6 +79,8 @@ pub fn run(arguments: &Arguments) -> Outcome {
 /// Writes the files of the example. What is there already under their names has to be the same: it may be somebody's work.
 fn write(folder: &Path) -> Result<(), Failure> {
     for (name, content) in FILES {
+        // In the folder of the example the schema is that of the repository.
+        let content = content.replacen("#:schema ../../", "#:schema ./", 1);
         let path = folder.join(name);
         match std::fs::read(&path) {
             Ok(there) if there == content.as_bytes() => continue,

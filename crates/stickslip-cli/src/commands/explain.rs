@@ -13,10 +13,10 @@ use stickslip::number::digits;
 /// Width of the printed text in characters.
 const WIDTH: usize = 100;
 
-/// Explain how a run went: whether it finished, how hard it was, what went wrong where, and what to try.
+/// Explain a run: outcome, effort, problems with their places, and remedies.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The directory of the results, or its summary.json.
+    /// The result folder, or its summary.json.
     #[arg(value_hint = clap::ValueHint::DirPath)]
     directory: PathBuf,
     /// Print the findings as JSON.

@@ -12,22 +12,22 @@ use crate::given;
 use crate::print;
 use stickslip::number::digits;
 
-/// Solve friction problems alone, u = W r + q with a law of friction at every point: solver, iterations and error of each.
+/// Solve friction problems u = W r + q with a friction law at every point: solver, iterations and error of each.
 ///
-/// A file has lines `dim D contacts N`, `mu` with N values, `q` with D N lines of a value, normal component first, and `W ENTRIES` with lines of row, column
-/// (from 0) and value. `run --dump-failures` writes such files.
+/// A file has lines `dim D contacts N`, `mu` with N values, `q` with D N lines of a value, normal component first, and `W ENTRIES` with lines of row,
+/// column (from 0) and value. `run --dump-failures` writes such files.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// The files.
     #[arg(required = true)]
     files: Vec<PathBuf>,
-    /// Error to which they are solved: the norm of the natural map relative to that of q.
+    /// Error tolerance: norm of the natural map relative to that of q.
     #[arg(long, default_value_t = 1e-10, value_parser = tolerance)]
     tolerance: f64,
     /// Write forces and motions of NAME.txt to NAME.csv in this folder.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// List all solvers that were tried, not only the one that ended it.
+    /// List all solvers that were tried, not only the last one.
     #[arg(short, long)]
     verbose: bool,
 }

@@ -7,11 +7,11 @@ use stickslip::Error;
 use crate::failure::Outcome;
 use crate::print;
 
-/// Print the manual page, or write the pages of all commands to a folder.
+/// Print the manual page, or write the manual pages of all commands to a folder.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Read it at once with `stickslip man | man -l -`.")]
 pub struct Arguments {
-    /// Write stickslip.1, stickslip-run.1 and so on there.
+    /// Folder for stickslip.1, stickslip-run.1 and so on.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
 }

@@ -53,7 +53,7 @@ pub struct EngineArguments {
     /// Linear solver that factors the bodies; overrides the problem file. `--set` changes its other keys.
     #[arg(long, value_name = "ENGINE", value_parser = PossibleValuesParser::new(EngineModel::KINDS))]
     engine: Option<String>,
-    /// Processes over which `mumps` spreads the factor of a body.
+    /// Number of MPI processes of `mumps`.
     #[arg(long, value_name = "N")]
     ranks: Option<usize>,
 }

@@ -11,13 +11,13 @@ use crate::print;
 /// Width of the printed text in characters.
 const WIDTH: usize = 100;
 
-/// List the model families and their entries, or the parameters of one.
+/// List model families and their entries, or the parameters of one entry.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// A family (`friction`), an entry (`coulomb`), or both (`friction.coulomb`).
     #[arg(value_parser = Words(names), hide_possible_values = true)]
     name: Option<String>,
-    /// Print what goes with what: steps, methods, loads and supports against the ways in which bodies turn.
+    /// Print which steps, methods, loads and supports work with which kinds of bodies.
     #[arg(long, conflicts_with = "name")]
     matrix: bool,
 }

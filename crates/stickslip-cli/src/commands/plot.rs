@@ -11,13 +11,14 @@ use crate::failure::{Failure, Outcome};
 use crate::given;
 use crate::print;
 
-/// Make a picture of results, PNG or SVG: the bodies, what an interface carries, columns of the history, or what the runs of a sweep do.
+/// Draw results as PNG or SVG: bodies, interfaces, columns of the history, or tables of a sweep.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The folder with the results of a run; with --regimes, --stability and --coupling the table of a sweep, with the last of a map too, with --waterfall that of spectra.
+    /// The result folder of a run; with --regimes, --stability and --coupling the table of a sweep (or, with --coupling, of a map); with --waterfall the
+    /// table of spectra.
     #[arg(value_hint = ValueHint::DirPath)]
     directory: PathBuf,
-    /// The file to write, ending with .png or .svg; `plot.png`, `INTERFACE.png` or `history.png` in the folder if not given. With --along also .csv, a table.
+    /// The file to write, .png or .svg; default: `plot.png`, `INTERFACE.png` or `history.png` in the folder. With --along also .csv, a table.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     #[command(flatten)]
@@ -26,39 +27,40 @@ pub struct Arguments {
     motion: Motion,
     #[command(flatten)]
     tables: Tables,
-    /// Draw what this interface carries along its surface: in a plane pressure, shear and status over the arc, in space maps of them, in plan or unrolled. With --field that
-    /// field alone, in a plane, with --time all a line a time; of CWEAR and CDISS that of the surface opposite as well, in a file of its own (NAME-opposite.svg).
+    /// Draw pressure, shear and status along this interface: in 2D curves over the arc length, in 3D maps in plan or unrolled. With --field that field
+    /// alone; in 2D with --time all a line for each time. CWEAR and CDISS of the opposite surface go into a second file (NAME-opposite.svg).
     #[arg(long, value_name = "INTERFACE", conflicts_with_all = ["view", "bodies", "range", "bands", "threshold", "apart", "at", "arrows", "cut", "mirror", "loads", "history"])]
     along: Option<String>,
-    /// Draw the field along a straight line through the bodies, by its ends before any displacement: `0,0,0:10,0,0`; a line a time with --time all. With -o NAME.csv a table.
+    /// Draw the field along a straight line through the bodies, between two undeformed places: `0,0,0:10,0,0`. With --time all a line for each time; with -o NAME.csv a
+    /// table.
     #[arg(long, value_name = "X,Y[,Z]:X,Y[,Z]", allow_hyphen_values = true, value_parser = segment, conflicts_with_all = ["along", "view", "bodies", "range", "bands", "threshold", "apart", "at", "arrows", "cut", "mirror", "loads", "history", "script", "mode", "animate", "regimes", "stability", "coupling", "waterfall"])]
     path: Option<Segment>,
-    /// Tractions as arrows, in the colours of stick and slip: by themselves in contact views of plane problems.
+    /// Draw tractions as arrows in the colours of stick and slip. Default: yes for contact fields in 2D.
     #[arg(long, value_name = "yes|no", value_parser = yes)]
     arrows: Option<bool>,
-    /// Draw only cells whose middle is below this plane, to look inside; through the middle of the model if no place is given.
+    /// Draw only cells below this plane, to look inside. Default place: the middle of the model.
     #[arg(long, value_name = "x|y|z[=PLACE]", value_parser = plane)]
     cut: Option<Plane>,
-    /// Draw the other half beyond a plane of symmetry as well; at the side of the model that is nearer to zero if no place is given. May be repeated: two planes make a whole of a
-    /// quarter.
+    /// Add the mirrored half beyond a plane of symmetry. Default place: the side of the model nearer to zero. Repeat it with a second plane for a quarter
+    /// model.
     #[arg(long, value_name = "x|y|z[=PLACE]", value_parser = plane)]
     mirror: Vec<Plane>,
-    /// Draw supports and loads as symbols, and the outline of the bodies before any displacement. Mesh files of the problem are looked for beside the folder of the results.
+    /// Draw supports and loads as symbols, and the undeformed outline. Needs the mesh files of the problem beside the result folder.
     #[arg(long)]
     loads: bool,
-    /// Write a script beside the picture that draws it with PyVista, to go on from: `plot.py` for `plot.png`.
+    /// Write a PyVista script beside the picture that draws it: `plot.py` for `plot.png`.
     #[arg(long, conflicts_with_all = ["along", "history", "animate", "regimes", "stability", "coupling", "waterfall"])]
     script: bool,
-    /// Units of length and stress for the legend: `mm,MPa`. Numbers stay as they are.
+    /// Units of length and stress in the legend: `mm,MPa`. Numbers are not converted.
     #[arg(long, value_name = "LENGTH,STRESS", value_parser = units)]
     units: Option<Units>,
     /// Width and height in pixels.
     #[arg(long, value_name = "WxH", default_value = "1200x900", value_parser = size)]
     size: [u32; 2],
-    /// Plot these columns of history.csv instead of the bodies.
+    /// Plot these columns of history.csv instead of bodies.
     #[arg(long, value_name = "COLUMN,...", value_delimiter = ',', conflicts_with_all = ["field", "view", "bodies", "range", "bands", "threshold", "apart", "loads"])]
     history: Vec<String>,
-    /// Plot these columns too, along an axis of their own at the right.
+    /// Plot these columns on a second vertical axis, at the right.
     #[arg(
         long,
         value_name = "COLUMN,...",
@@ -66,10 +68,10 @@ pub struct Arguments {
         requires = "history"
     )]
     right: Vec<String>,
-    /// The table whose columns are meant, where it is not history.csv: `modes-2-map.csv`, say. The picture is named after it.
+    /// Take the columns from this table instead of history.csv, for example `modes-2-map.csv`. The picture gets its name.
     #[arg(long, value_name = "FILE", requires = "history")]
     table: Option<String>,
-    /// The column along the horizontal axis.
+    /// The column of the horizontal axis.
     #[arg(
         long,
         value_name = "COLUMN",
@@ -82,41 +84,40 @@ pub struct Arguments {
 /// What is seen, and from where.
 #[derive(Debug, clap::Args)]
 struct Framing {
-    /// The field in colour, as ParaView lists it, a component or an invariant: CPRESS, CSTATUS, MISES, U, U1, S11, S1 (the largest principal stress). The contact pressure if not
-    /// given, or the von Mises stress where nothing touches.
+    /// Field in colour: a field, a component or an invariant, such as CPRESS, CSTATUS, MISES, U, U1, S11, S1 (the largest principal stress). Default: the
+    /// contact pressure, or the von Mises stress without contact.
     #[arg(long, value_name = "NAME", value_parser = Words(fields), hide_possible_values = true)]
     field: Option<String>,
-    /// Which of the times at which fields were written: `peak`, at which contact presses most, or the field that is named is largest, and of wear and dissipation the last; `last`; a
-    /// number from 1; or `all`, a file each.
+    /// Output time: `peak`, when the contact pressure or the chosen field is largest (for wear and dissipation the last); `last`; a number from 1; or
+    /// `all`, a file each.
     #[arg(long, value_name = "peak|last|N|all", default_value = "peak", value_parser = when)]
     time: When,
-    /// Factor of the displacements; with `auto` 1 where a field of contact is shown, elsewhere the largest is about a twentieth of the model, or less where
-    /// that would open or close gaps.
+    /// Factor of the displacements. `auto`: 1 for fields of contact, otherwise the largest becomes about a twentieth of the model, or less where that
+    /// would open or close gaps.
     #[arg(long, value_name = "auto|X", default_value = "auto", value_parser = scale)]
     scale: Scale,
-    /// From where one looks: iso, x, y, z, -x, -y, -z. Plane models are seen from z.
+    /// View direction: iso, x, y, z, -x, -y, -z. Plane models are seen from z.
     #[arg(long, value_name = "VIEW", allow_hyphen_values = true, value_parser = view)]
     view: Option<View>,
-    /// Draw these bodies only; may be repeated.
+    /// Draw these bodies only. Can be repeated.
     #[arg(long, alias = "body", value_name = "NAME,...", value_delimiter = ',')]
     bodies: Vec<String>,
-    /// What the ends of the colours stand for. If not given, the least and the largest value; where single points are far from the rest, 99 % of the area.
+    /// Values at the ends of the colours. Default: the least and the largest value, or 99 % of the area where single points are far above the rest.
     #[arg(long, value_name = "LO,HI", allow_hyphen_values = true, value_parser = range)]
     range: Option<Range>,
-    /// Draw in so many colours.
+    /// Number of colours.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=64))]
     bands: Option<u32>,
-    /// What is below is drawn as nothing.
+    /// Do not draw values below this one.
     #[arg(long, value_name = "LO", allow_hyphen_values = true, value_parser = number)]
     threshold: Option<f64>,
-    /// How far bodies that touch are drawn apart; with `auto` as far as contact needs to be seen, where a field of contact is shown in space; 0 leaves them where they are.
+    /// Distance at which bodies in contact are drawn apart. `auto`: as far as needed to see fields of contact in 3D; 0: not at all.
     #[arg(long, value_name = "auto|LENGTH", default_value = "auto", value_parser = apart)]
     apart: Apart,
-    /// Which part is seen: `contact`, the patch that presses, `whole`, or how many times nearer. With `auto` the patch, if it is small and a field of contact
-    /// is shown.
+    /// Part of the model: `contact`, `whole`, or a factor. `auto`: the contact, if it is small and a field of contact is shown.
     #[arg(long, value_name = "auto|contact|whole|X", default_value = "auto", value_parser = zoom)]
     zoom: Zoom,
-    /// What is in the middle of the picture.
+    /// Centre of the picture.
     #[arg(long, value_name = "X,Y[,Z]", allow_hyphen_values = true, value_parser = place)]
     at: Option<Place>,
 }
@@ -124,14 +125,13 @@ struct Framing {
 /// What moves.
 #[derive(Debug, clap::Args)]
 struct Motion {
-    /// Draw the shape of a mode, or the answer to harmonic loads: its number in the last step that has some, or STEP:MODE, the step by its name or number. The fastest growing mode is
-    /// often the one to look at.
+    /// Draw a mode shape or a harmonic response: its number in the last modal step, or STEP:MODE with the name or number of the step.
     #[arg(long, value_name = "MODE", conflicts_with_all = ["along", "history", "regimes", "stability", "coupling", "waterfall"])]
     mode: Option<String>,
-    /// Write a picture in motion, through all times at which fields were written or the phases of a mode: animated PNG, which browsers show and other programs make films of, or GIF.
+    /// Write an animation through all output times, or the phases of a mode: animated PNG or GIF.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["along", "history", "output", "time", "regimes", "stability", "coupling", "waterfall"])]
     animate: Option<PathBuf>,
-    /// Pictures a second.
+    /// Pictures per second.
     #[arg(long, value_name = "N", default_value = "10", value_parser = rate, requires = "animate")]
     rate: f64,
 }
@@ -139,16 +139,17 @@ struct Motion {
 /// What is drawn of a table of many runs, modes or spectra.
 #[derive(Debug, clap::Args)]
 struct Tables {
-    /// Draw which runs of a sweep stick, slip in part and slide, over two of its axes: `amplitude,load`, the ends of their names will do.
+    /// Draw which runs of a sweep stick, slip partially and slide, over two axes: `amplitude,load`; the ends of their names suffice.
     #[arg(long, value_name = "ACROSS,UP", value_parser = pair, conflicts_with_all = ["along", "field", "view", "bodies", "history"])]
     regimes: Option<Pair>,
-    /// Draw in which runs of a sweep steady sliding is stable, flutters and diverges, over two of its axes, with the boundary that `sweep --critical` has found.
+    /// Draw in which runs of a sweep steady sliding is stable, flutters or diverges, over two axes, with the boundary from `sweep --critical`.
     #[arg(long, value_name = "ACROSS,UP", value_parser = pair, conflicts_with_all = ["along", "field", "view", "bodies", "history", "regimes"])]
     stability: Option<Pair>,
-    /// Draw how modes couple: frequencies and growth of all over a column of a map (`pad.out/modes-2-map.csv --coupling mu`) or an axis of a sweep, a picture each.
+    /// Draw mode coupling, frequencies and growth, over a column of a map (`pad.out/modes-2-map.csv --coupling mu`) or an axis of a sweep, a picture
+    /// each.
     #[arg(long, value_name = "COLUMN", conflicts_with_all = ["along", "field", "view", "bodies", "history", "regimes", "stability"])]
     coupling: Option<String>,
-    /// Draw how strong a vibration is over time and frequency, from the table of its spectra: `pad.out/modes-3-waterfall.csv --waterfall`.
+    /// Draw a waterfall of spectra over time and frequency: `pad.out/modes-3-waterfall.csv --waterfall`.
     #[arg(long, conflicts_with_all = ["along", "field", "view", "bodies", "history", "regimes", "stability", "coupling"])]
     waterfall: bool,
 }

@@ -10,16 +10,16 @@ use crate::failure::Outcome;
 use crate::given;
 use crate::print;
 
-/// Write a report on results: one HTML file that opens without a network.
+/// Write a report: one self-contained HTML file.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The folder with the results of a run.
+    /// The result folder of a run.
     #[arg(value_hint = clap::ValueHint::DirPath)]
     directory: PathBuf,
-    /// The file to write; `report.html` in the folder if not given.
+    /// The file to write; default: `report.html` in the folder.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Most megabytes of fields, before compression; times are left out evenly until the rest fits.
+    /// Largest size of fields in megabytes before compression; times are left out evenly above it.
     #[arg(long, value_name = "MB", default_value_t = 48)]
     limit: u64,
 }

@@ -14,19 +14,19 @@ use crate::voice::ProgressPrinter;
 use stickslip::number::digits;
 use stickslip::problem::changes;
 
-/// Go on with an analysis that was stopped or killed, from its last checkpoint.
+/// Continue an interrupted analysis from its last checkpoint.
 ///
-/// Results are those, to the last bit, of a run that was never stopped. The problem is `problem.toml` in the folder of results, where the
-/// duration of the step at hand, later steps, `output` and `title` may be changed before.
+/// The results are bitwise those of an uninterrupted run. The problem is `problem.toml` in the result folder. Before resuming you may change the duration
+/// of the current step, later steps, `output` and `title` there.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// The folder of results.
+    /// The result folder.
     #[arg(value_hint = clap::ValueHint::DirPath)]
     directory: PathBuf,
-    /// Go on from the checkpoint after N increments; the last one if not given.
+    /// Continue from the checkpoint after N increments; default: the last one.
     #[arg(long, value_name = "N")]
     from: Option<usize>,
-    /// Change a value that may be changed: path=value, for example step.1.duration=2.
+    /// Change a value that may be changed, for example step.1.duration=2.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
     #[command(flatten)]

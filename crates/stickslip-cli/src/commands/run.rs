@@ -27,19 +27,19 @@ use crate::voice::{Heartbeat, ProgressPrinter};
 pub struct Arguments {
     /// The problem file, or an input deck of Abaqus or CalculiX (`.inp`).
     file: PathBuf,
-    /// Directory of the results; `<file>.out` beside the file if not given.
+    /// Result folder; default: `<file>.out` beside the file.
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
-    /// Change a value: path=value, for example interface.base.friction.coulomb.mu=0.3.
+    /// Change a value, for example interface.base.friction.coulomb.mu=0.3.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     set: Vec<String>,
-    /// Keep the factors of bodies in DIR, and take from there what was factored before: for other loads, laws of
-    /// interfaces and steps nothing has to be factored again. What is in it can be deleted at any time.
+    /// Keep factorisations of bodies in DIR and reuse them: other loads, contact laws and steps need no new factorisation. DIR can be deleted at any
+    /// time.
     #[arg(long, value_name = "DIR")]
     cache: Option<PathBuf>,
     #[command(flatten)]
     engine: EngineArguments,
-    /// Write an increment that nothing solves to DIR as a friction problem, which `stickslip friction` reads.
+    /// Write an increment that no solver solves to DIR as a friction problem, for `stickslip friction`.
     #[arg(long, value_name = "DIR")]
     dump_failures: Option<PathBuf>,
     #[command(flatten)]
@@ -64,16 +64,16 @@ impl Arguments {
 /// How an analysis is run and what is said of it.
 #[derive(Debug, clap::Args)]
 pub struct Manner {
-    /// Threads; all processors if not given. Results do not depend on it.
+    /// Number of threads; default: all processors. Results do not depend on it.
     #[arg(long, value_name = "N")]
     pub threads: Option<usize>,
     /// No progress on standard error.
     #[arg(short, long)]
     pub quiet: bool,
-    /// Show every Newton iteration, and what the solver did.
+    /// Show every Newton iteration and details of the solver.
     #[arg(short, long)]
     verbose: bool,
-    /// Print what happens as lines of JSON on standard output, for programs.
+    /// Print events as lines of JSON on standard output.
     #[arg(long)]
     json: bool,
 }
@@ -89,7 +89,7 @@ impl Manner {
         }
     }
 
-    /// A sign of life for who listens.
+    /// Messages that the run is still going on.
     pub fn heartbeat(&self, voice: &ProgressPrinter) -> Option<Heartbeat> {
         match (self.json, self.quiet) {
             (true, _) => Some(Heartbeat::to_program(voice)),

@@ -3,10 +3,10 @@ use std::process::ExitCode;
 use crate::failure::Outcome;
 use crate::print;
 
-/// Print the JSON schema of the problem file, for completion in editors.
+/// Print the JSON schema of problem files, for editors.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Save it beside the problem file and put `#:schema ./stickslip.schema.json` in its first line."
+    after_help = "Save it beside the problem file, whose first line `#:schema ./stickslip.schema.json` names it."
 )]
 pub struct Arguments {}
 

@@ -25,6 +25,11 @@ fn through(name: &str, line: &str) -> String {
         let said = text(&output.stdout) + &text(&output.stderr);
         assert_eq!(code(&output), Some(0), "{next}\n{said}");
     }
+    let problem = std::fs::read_to_string(folder.join("case.toml")).expect("the problem file");
+    assert!(
+        problem.starts_with("#:schema ./stickslip.schema.json\n"),
+        "{problem}"
+    );
     let told = text(&made.stdout);
     assert!(told.lines().all(|l| l.chars().count() <= 100), "{told}");
     assert!(told.contains("next: stickslip run case.toml"), "{told}");

@@ -15,7 +15,7 @@ use crate::shape::mass_rule;
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum MassKind {
-    /// `∫ ρ N_a N_b`: what the shape functions say.
+    /// Consistent: `∫ ρ N_a N_b`.
     #[default]
     Consistent,
     /// Diagonal: that of the consistent matrix, scaled to the mass of the cell

@@ -30,7 +30,7 @@ pub enum Space {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Formulation {
-    /// Strains as the displacements give them.
+    /// Fully integrated displacement elements.
     #[default]
     Standard,
     /// The dilatation is replaced by its mean over the cell (B-bar,

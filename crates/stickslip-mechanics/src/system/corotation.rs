@@ -341,7 +341,7 @@ mod tests {
         (0..count).map(|i| number(i).fract()).collect()
     }
 
-    /// A body of six points, another point after it, a stiffness that knows of no rigid motion, and displacements that strain it by a few per cent.
+    /// A body of six points, another point after it, a stiffness that does not vanish for rigid motions, and displacements that strain it by a few per cent.
     fn sample(dim: usize) -> (Corotations, Vec<Vec3>, Vec<f64>, Vec<Vec<f64>>) {
         let dofs = Dofs { dim, points: 7 };
         let raw = noise(21, 3.0);

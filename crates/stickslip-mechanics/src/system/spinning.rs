@@ -192,7 +192,7 @@ impl IncrementalRotation {
     }
 
     /// `ψ` over a time in which no moment acts and the momentum along the axes of the start is `p`, and the momentum along those of the end: for `J⁻¹` as a
-    /// product by dof that hands back spins times lengths.
+    /// product by dof that returns spins times lengths.
     pub fn drift(
         &self,
         p: &[f64],

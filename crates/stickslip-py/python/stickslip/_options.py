@@ -9,73 +9,73 @@ class PlotOptions(TypedDict, total=False):
     """Options of ``stickslip plot``."""
 
     time: Union[Literal["peak", "last", "all"], int]
-    """Which of the times at which fields were written: `peak`, at which contact presses most, or the field that is named is largest, and of wear and dissipation the last; `last`; a number from 1; or `all`, a file each"""
+    """Output time: `peak`, when the contact pressure or the chosen field is largest (for wear and dissipation the last); `last`; a number from 1; or `all`, a file each"""
 
     scale: Union[Literal["auto"], float]
-    """Factor of the displacements; with `auto` 1 where a field of contact is shown, elsewhere the largest is about a twentieth of the model, or less where that would open or close gaps"""
+    """Factor of the displacements. `auto`: 1 for fields of contact, otherwise the largest becomes about a twentieth of the model, or less where that would open or close gaps"""
 
     view: str
-    """From where one looks: iso, x, y, z, -x, -y, -z. Plane models are seen from z"""
+    """View direction: iso, x, y, z, -x, -y, -z. Plane models are seen from z"""
 
     bodies: Union[str, list[str]]
-    """Draw these bodies only; may be repeated"""
+    """Draw these bodies only. Can be repeated"""
 
     range: Union[str, tuple[Union[str, float], ...]]
-    """What the ends of the colours stand for. If not given, the least and the largest value; where single points are far from the rest, 99 % of the area"""
+    """Values at the ends of the colours. Default: the least and the largest value, or 99 % of the area where single points are far above the rest"""
 
     bands: int
-    """Draw in so many colours"""
+    """Number of colours"""
 
     threshold: float
-    """What is below is drawn as nothing"""
+    """Do not draw values below this one"""
 
     apart: Union[Literal["auto"], float]
-    """How far bodies that touch are drawn apart; with `auto` as far as contact needs to be seen, where a field of contact is shown in space; 0 leaves them where they are"""
+    """Distance at which bodies in contact are drawn apart. `auto`: as far as needed to see fields of contact in 3D; 0: not at all"""
 
     zoom: Union[Literal["auto", "contact", "whole"], float]
-    """Which part is seen: `contact`, the patch that presses, `whole`, or how many times nearer. With `auto` the patch, if it is small and a field of contact is shown"""
+    """Part of the model: `contact`, `whole`, or a factor. `auto`: the contact, if it is small and a field of contact is shown"""
 
     at: Union[str, tuple[Union[str, float], ...]]
-    """What is in the middle of the picture"""
+    """Centre of the picture"""
 
     along: str
-    """Draw what this interface carries along its surface: in a plane pressure, shear and status over the arc, in space maps of them, in plan or unrolled. With --field that field alone, in a plane, with --time all a line a time; of CWEAR and CDISS that of the surface opposite as well, in a file of its own (NAME-opposite.svg)"""
+    """Draw pressure, shear and status along this interface: in 2D curves over the arc length, in 3D maps in plan or unrolled. With --field that field alone; in 2D with --time all a line for each time. CWEAR and CDISS of the opposite surface go into a second file (NAME-opposite.svg)"""
 
     arrows: Literal["yes", "no"]
-    """Tractions as arrows, in the colours of stick and slip: by themselves in contact views of plane problems"""
+    """Draw tractions as arrows in the colours of stick and slip. Default: yes for contact fields in 2D"""
 
     cut: str
-    """Draw only cells whose middle is below this plane, to look inside; through the middle of the model if no place is given"""
+    """Draw only cells below this plane, to look inside. Default place: the middle of the model"""
 
     mirror: Union[str, list[str]]
-    """Draw the other half beyond a plane of symmetry as well; at the side of the model that is nearer to zero if no place is given. May be repeated: two planes make a whole of a quarter"""
+    """Add the mirrored half beyond a plane of symmetry. Default place: the side of the model nearer to zero. Repeat it with a second plane for a quarter model"""
 
     loads: bool
-    """Draw supports and loads as symbols, and the outline of the bodies before any displacement. Mesh files of the problem are looked for beside the folder of the results"""
+    """Draw supports and loads as symbols, and the undeformed outline. Needs the mesh files of the problem beside the result folder"""
 
     units: Union[str, tuple[Union[str, float], ...]]
-    """Units of length and stress for the legend: `mm,MPa`. Numbers stay as they are"""
+    """Units of length and stress in the legend: `mm,MPa`. Numbers are not converted"""
 
     size: tuple[int, int]
     """Width and height in pixels"""
 
     history: Union[str, list[str]]
-    """Plot these columns of history.csv instead of the bodies"""
+    """Plot these columns of history.csv instead of bodies"""
 
     table: str
-    """The table whose columns are meant, where it is not history.csv: `modes-2-map.csv`, say. The picture is named after it"""
+    """Take the columns from this table instead of history.csv, for example `modes-2-map.csv`. The picture gets its name"""
 
     regimes: Union[str, tuple[Union[str, float], ...]]
-    """Draw which runs of a sweep stick, slip in part and slide, over two of its axes: `amplitude,load`, the ends of their names will do"""
+    """Draw which runs of a sweep stick, slip partially and slide, over two axes: `amplitude,load`; the ends of their names suffice"""
 
     stability: Union[str, tuple[Union[str, float], ...]]
-    """Draw in which runs of a sweep steady sliding is stable, flutters and diverges, over two of its axes, with the boundary that `sweep --critical` has found"""
+    """Draw in which runs of a sweep steady sliding is stable, flutters or diverges, over two axes, with the boundary from `sweep --critical`"""
 
     coupling: str
-    """Draw how modes couple: frequencies and growth of all over a column of a map (`pad.out/modes-2-map.csv --coupling mu`) or an axis of a sweep, a picture each"""
+    """Draw mode coupling, frequencies and growth, over a column of a map (`pad.out/modes-2-map.csv --coupling mu`) or an axis of a sweep, a picture each"""
 
     waterfall: bool
-    """Draw how strong a vibration is over time and frequency, from the table of its spectra: `pad.out/modes-3-waterfall.csv --waterfall`"""
+    """Draw a waterfall of spectra over time and frequency: `pad.out/modes-3-waterfall.csv --waterfall`"""
 
     against: str
-    """The column along the horizontal axis"""
+    """The column of the horizontal axis"""

@@ -27,7 +27,7 @@ Rows = Union[Sequence[Sequence[float]], Sequence[np.ndarray], np.ndarray]
 #: A direction of space, or an axis about which reference points turn.
 Component = Literal["x", "y", "z", "rotation-x", "rotation-y", "rotation-z"]
 
-#: Where in the increment the forces of the interfaces are taken.
+#: Where in the increment contact forces are evaluated. Default: `stage` if the laws of all interfaces are compliant and couplings are springs and
 ContactAt = Literal["end", "stage"]
 
 #: Whether points in contact have mass.
@@ -42,7 +42,7 @@ ElementKind = Literal["line2", "line3", "tri3", "tri6", "quad4", "quad8", "tet4"
 #: How quadrilateral facets of a primary surface are taken.
 FacetShape = Literal["bilinear", "triangles"]
 
-#: Whether contact feels what is worn off.
+#: How the worn depth changes the gap.
 Feedback = Literal["implicit", "explicit", "none"]
 
 #: How the elements make strains of displacements.
@@ -51,7 +51,7 @@ Formulation = Literal["standard", "mean-dilatation", "reduced", "incompatible-mo
 #: How the `.frd` file is written.
 Frd = Literal["none", "text", "binary"]
 
-#: What becomes of a figure above its limit.
+#: Action on a figure above its limit.
 GateMode = Literal["error", "warn", "off"]
 
 #: What a map multiplies: the contact state of the step is kept.
@@ -72,7 +72,7 @@ Solution = Literal["automatic", "condensed", "sparse", "multigrid"]
 #: The space in which the bodies live.
 SpaceKind = Literal["plane-strain", "plane-stress", "axisymmetric", "solid"]
 
-#: What becomes of gaps and overlaps that the meshes have when an interface begins to act.
+#: Treatment of initial gaps and overlaps of the meshes.
 Start = Literal["as-meshed", "snap", "offset", "ramp"]
 
 #: What becomes of the plane nearest to all heights.
@@ -153,7 +153,7 @@ class Body(Table):
     Parameters
     ----------
     formulation
-        What the elements do with the change of volume.
+        Element formulation.
     material
         The [material.NAME] of all cells that are in none of the `regions`.
     rayleigh
@@ -263,15 +263,15 @@ class Centrifugal(Table):
 
 
 class Change(Table):
-    """`change.INTERFACE` of a step: laws that hold from this step on. What is not given stays. Points keep their pressure, status and the shear that they
-    carry; the new laws are asked from the first increment on.
+    """Laws of an interface from this step on. Laws that are not given stay. Points keep their pressure, status and shear traction; the new laws apply from
+    the first increment on.
 
     Parameters
     ----------
     friction
-        How much shear the interface carries.
+        The friction law: the largest shear traction of the interface.
     normal
-        How the surfaces resist being pressed together.
+        The normal law: pressure as a function of the gap.
     """
 
     def __init__(self, *, friction: Friction | None = None, normal: Normal | None = None) -> None:
@@ -286,7 +286,7 @@ class CheckpointPlan(Table):
     increments
         After so many increments; 0: not by their number. Of condensed bodies up to sixteen are found together: then after the last of them.
     minutes
-        After so many minutes of the clock on the wall; 0: not by the clock.
+        Wall-clock minutes between checkpoints; 0: not by time.
     """
 
     def __init__(self, *, increments: int | None = None, minutes: float | None = None) -> None:
@@ -300,12 +300,12 @@ class ChosenJump(Table):
     Parameters
     ----------
     error
-        Largest error that jumps may make, beside cycles that are all computed: of the worn volume relative to itself, summed over the places of a surface without sign, and of the
-        depth at every place relative to the greatest. A cycle that stands for too many is taken back.
+        Largest error of jumps, compared with computing all cycles: of the worn volume relative to itself, summed over the places of a surface without
+        sign, and of the depth at every place relative to the greatest. A jump that is too long is repeated with fewer cycles.
     first
-        How many cycles the first stands for. Default: 1.
+        Number of cycles of the first jump. Default: 1.
     largest
-        How many one stands for at most. Default: all that are left.
+        Largest number of cycles of a jump. Default: all that remain.
     """
 
     def __init__(self, *, error: float, first: int | None = None, largest: int | None = None) -> None:
@@ -391,16 +391,16 @@ class Coupling(Table):
 
 
 class Cycles(Table):
-    """How often a step is gone through. The time of the analysis goes on by one duration for each cycle that is computed, or where jumps are chosen for each cycle that is over;
-    amplitude tables, and what follows in them, count one cycle.
+    """Cycles of a step. The time of the analysis advances by one duration for each computed cycle, with chosen jumps for each completed cycle; amplitude
+    tables count one cycle.
 
     Parameters
     ----------
     count
-        How many cycles there are.
+        Number of cycles.
     jump
-        How many of them each cycle that is computed stands for: what slides in it wears as often. Or the error that jumps over cycles may make, `{ error = 0.01 }`, by
-        which each is chosen. Default: 1.
+        Number of cycles that each computed one stands for: its wear counts that often. Or the largest error of jumps over cycles, `{ error = 0.01 }`,
+        from which each jump is chosen. Default: 1.
     """
 
     def __init__(self, *, count: int, jump: Jump | None = None) -> None:
@@ -427,7 +427,7 @@ class Cylinder(Table):
 
 
 class Damping(Table):
-    """What resists surfaces while they approach or part."""
+    """Contact damping: pressure as a function of the closing velocity."""
 
     @staticmethod
     def none() -> Damping:
@@ -547,11 +547,11 @@ class Dynamic(Table):
     Parameters
     ----------
     contact_at
-        Where in the increment the forces of the interfaces are taken. By default at its stage where the laws of all interfaces are compliant and
-        couplings are springs and dashpots only, else at its end.
+        Where in the increment contact forces are evaluated. Default: `stage` if the laws of all interfaces are compliant and couplings are springs and
+        dashpots only, else `end`.
     contact_mass
-        Whether the points of interfaces have mass. By default it is redistributed where the normal law is unilateral, and
-        left as meshed where it is compliant and in an explicit scheme. Tied surfaces keep theirs in any case.
+        Mass of contact points. Default: redistributed if the normal law is unilateral, as meshed if it is compliant or the scheme explicit. Tied surfaces
+        keep their mass.
     error
         Largest local error of the displacements over an increment, relative to the motion since the start of the step; an increment with
         more is halved. Not checked if not given.
@@ -559,7 +559,7 @@ class Dynamic(Table):
         Time to which opening, closing, sticking and slipping are located: an increment over which a point changes
         status is halved until it is no longer than this. Not located if not given.
     mass
-        How the mass of a cell is given to its points. An explicit scheme has lumped masses in any case.
+        Mass matrix of cells. An explicit scheme has lumped masses.
     scheme
         How the equations of motion are integrated.
     """
@@ -569,11 +569,11 @@ class Dynamic(Table):
 
 
 class Enforcement(Table):
-    """How contact and stick are enforced."""
+    """How the contact and sticking constraints are enforced."""
 
     @staticmethod
     def penalty(*, factor: float | None = None, stiffness: float | None = None, tangential_factor: float | None = None, tangential_stiffness: float | None = None) -> Enforcement:
-        """Springs against penetration and stick. What they give is reported; nothing removes it.
+        """Springs against penetration and slip of sticking points. Their penetration is reported and not corrected.
 
         Parameters
         ----------
@@ -714,10 +714,10 @@ class Fatigue(Table):
     Parameters
     ----------
     criteria
-        Which: `criteria = [{ findley = { k = 0.3 } }, { ruiz = {} }]. Each has a field of its name with the values of the last cycle and one with the normals of the worst planes, columns of its largest value in
-        `cycles.csv`, and an entry in the summary.
+        Criteria: `criteria = [{ findley = { k = 0.3 } }, { ruiz = {} }]`. Each has a field of its name with the values of the last cycle and one with the
+        normals of the worst planes, columns of its largest value in `cycles.csv`, and an entry in the summary.
     depth
-        How far from the nodes of interfaces points of bodies are looked at, as meshed. Default: all points of bodies that an interface joins.
+        Distance from interfaces within which points are evaluated, as meshed. Default: all points of bodies at an interface.
     """
 
     def __init__(self, *, criteria: Sequence[FatigueModel], depth: float | None = None) -> None:
@@ -725,7 +725,7 @@ class Fatigue(Table):
 
 
 class FatigueModel(Table):
-    """What says how badly a cycle treats a point."""
+    """A criterion of fretting fatigue."""
 
     @staticmethod
     def ruiz() -> FatigueModel:
@@ -774,7 +774,7 @@ class FatigueModel(Table):
 
 
 class Friction(Table):
-    """How much shear the interface carries."""
+    """The friction law: the largest shear traction of the interface."""
 
     @staticmethod
     def none() -> Friction:
@@ -1244,17 +1244,18 @@ class GroundSpring(Table):
 
 
 class Harmonic(Table):
-    """`harmonic` of a step: amplitude and phase of the displacements at probes under loads that go with the cosine of time, about the state that the step before has reached,
-    with its closed contacts and the friction of `steady` sliding, and with all damping. `harmonic = { loads = ["shaker"], from = 10, to = 500, points = 100 }`. Loads that
-    shake do not act before: leave them out of `loads` of the steps before. Supports stand still.
+    """Amplitude and phase of the displacements at probes under harmonic loads, about the state of the step before, with its closed contacts, the friction of
+    `steady` sliding, and all damping. `harmonic = { loads = ["shaker"], from = 10, to = 500, points = 100 }`. Harmonic loads must not act before: leave
+    them out of `loads` of the steps before. Supports do not vibrate.
 
     Parameters
     ----------
     bias
-        Frequencies crowd at the modes: `points` of them from each of `from`, the frequencies of the real modes between, and `to` to the next, ends counted, the nearer to
-        the ends the larger this is. 1 is even; 3 is the default of Abaqus and CalculiX. If not given, `points` are spread evenly from `from` to `to`.
+        Concentrates frequencies near the modes: `points` of them between neighbouring real modes, and between these and `from` and `to`, ends counted;
+        the larger, the closer to the ends. 1 is even; 3 is the default of Abaqus and CalculiX. If not given, `points` are spread evenly from `from` to
+        `to`.
     count
-        At most so many modes are superposed; those up to one and a half times the highest frequency are, and the give at rest of all others.
+        Largest number of superposed modes; those up to one and a half times the highest frequency are used, with a static correction for the others.
     damping
         Damping of the real modes, beside that of bodies, dashpots and contact.
     frequencies
@@ -1264,7 +1265,7 @@ class Harmonic(Table):
     loads
         The loads, in full: amplitudes over time do not count.
     phases
-        By how much loads lead the others, by name [degrees]: `phases.second = 90`; zero if not given.
+        Phase lead of loads, by name: `phases.second = 90`; zero if not given [degrees].
     points
         How many frequencies, ends counted.
     shapes
@@ -1324,63 +1325,60 @@ class Initial(Table):
 
 
 class Interface(Table):
-    """[interface.NAME]: two surfaces that may touch, and their laws.
+    """[interface.NAME]: a contact pair: two surfaces that may touch, and their laws.
 
     Parameters
     ----------
     primary
-        The surface that carries the normal: `body.set`, a [set.NAME], or an obstacle.
+        The primary (master) surface, which defines the normal: `body.set`, a [set.NAME], or an obstacle.
     secondary
         The secondary (slave) surface, whose points may not penetrate the primary: `body.set` or a [set.NAME]. Choose the softer
         of the two; the more finely meshed one takes its place unless `roles` say otherwise.
     damping
-        What resists surfaces while they approach or part.
+        Contact damping: pressure as a function of the closing velocity.
     discretisation
         Where contact is evaluated. Default: `mortar`; `node-to-facet` where the kinematics is `pop-1995` or facets are `triangles`.
     enforcement
-        How contact and stick are enforced.
+        How the contact and sticking constraints are enforced.
     facets
-        How quadrilateral facets of the primary are taken; as they are if not given, unless the kinematics needs
-        triangles. Without meaning in 2D and on obstacles.
+        Geometry of quadrilateral facets of the primary. Default: bilinear, unless the kinematics needs triangles. Without effect in 2D and on obstacles.
     friction
-        How much shear the interface carries.
+        The friction law: the largest shear traction of the interface.
     initial
-        What becomes of gaps and overlaps that the meshes have when the interface begins to act.
+        Treatment of initial gaps and overlaps of the meshes.
     initial_distance
-        The same as a length, instead of `initial-tolerance`. `snap` moves points that overlap by more than that out as well, up to
-        the height of the cell.
+        Tolerance as a length, instead of `initial-tolerance`. `snap` also moves points that overlap by more, up to the height of the cell.
     initial_gap
-        What the gap counts as at the start where `initial = "offset"` takes hold of it: a clearance, whatever the meshes say; below zero an
-        overlap. Default: 0.
+        Gap at the start with `initial = "offset"`: a clearance; negative for an overlap. Default: 0.
     initial_set
         Points to which `snap` is restricted: `body.set` or a [set.NAME]. Default: all of the secondary.
     initial_tolerance
-        Gap up to which `initial` takes hold of a point, as a fraction of the height of the cell beneath; a tenth if not given. Without
-        meaning for `as-meshed` and `ramp`, unless the surfaces are `tied`.
+        Gap up to which `initial` applies to a point, as a fraction of the height of the cell beneath; a tenth if not given. Without effect for
+        `as-meshed` and `ramp`, unless the surfaces are `tied`.
     kinematics
         How gap and slip are measured.
     normal
-        How the surfaces resist being pressed together.
+        The normal law: pressure as a function of the gap.
     primary_velocity
-        Velocity of the material of the primary surface beyond the motion of its body, such as a belt,
-        constant. Its normal component has no effect.
+        Velocity of the material of the primary surface relative to its body, such as a belt, constant. Its normal component has no
+        effect.
     primary_velocity_table
-        The same over the time of the analysis, instead of `primary-velocity`: rows [time, vx, vy], in 3D
-        [time, vx, vy, vz], linear in between, constant outside.
+        Velocity over the time of the analysis, instead of `primary-velocity`: rows [time, vx, vy], in 3D [time, vx, vy, vz], linear in between,
+        constant outside.
     roles
-        Whether the surfaces keep the roles they are named for.
+        Which surface has the contact points.
     roughness
         Heights of the secondary surface above its mesh. Default: none, it is smooth.
     slip
-        How stick and slip change hands.
+        The slip rule: shear traction as a function of relative motion.
     tied
-        The two surfaces are glued together where they lie opposite at the start, nearer than half the height of a cell (or than
-        `initial-tolerance` or `initial-distance` say), at the distance that they have there: neither gap nor slip changes, in tension too, and laws have no meaning. For meshes that do not match. Default: false.
+        Ties the surfaces where they lie opposite each other at the start, closer than half the height of a cell (or than `initial-tolerance` or
+        `initial-distance`), at their initial distance: neither gap nor slip changes, in tension too, and contact laws have no effect. For meshes that do
+        not match. Default: false.
     wear
-        What sliding wears off the surfaces: the field CWEAR, and depth and volume in the history. What is worn off opens the gap, unless `wear-feedback`
-        says otherwise.
+        The wear law: depth in the field CWEAR, depth and volume in the history. The worn depth opens the gap, unless `wear-feedback` says otherwise.
     wear_feedback
-        Whether contact feels what is worn off.
+        How the worn depth changes the gap.
     worn
         Result files `fields_*.vtu` of earlier runs of the same mesh that have worn this interface, relative to the folder of the problem file, the first run first: the points of both surfaces
         move into their bodies by the depths in them (`CWEAR`), along the normals that the surfaces had in that run, and depths count from zero again. Default: none.
@@ -1408,9 +1406,9 @@ class Isotropic(Table):
 
 
 class Kick(Table):
-    """`kick` of a dynamic step: displacements and velocities of a mode are added to the state that the step before, one with `modes` or `complex-modes`, has left. The
-    history tells how much of the mode is in the motion: `MODE.A`, its amplitude, `MODE.PHASE`, and `MODE.REST`, the part of the kinetic energy that is not of it;
-    `modes-N-growth.csv` compares with the eigenvalue.
+    """Adds displacements and velocities of a mode to the state of the step before, one with `modes` or `complex-modes`. The history has the amplitude of the
+    mode, `MODE.A`, its phase, `MODE.PHASE`, and `MODE.REST`, the part of the kinetic energy outside the mode; `modes-N-growth.csv` compares with the
+    eigenvalue.
 
     Parameters
     ----------
@@ -1497,10 +1495,9 @@ class Limits(Table):
     cone_violation
         Shear beyond the limit of friction, over the largest limit of the interface.
     displacement
-        Displacement of each body, over the size of the model and the way that supports and obstacles prescribe. Beyond it a body has been lost. In
-        motion bodies may fly as far as they like: there it is a finding.
+        Displacement of each body over the size of the model and the prescribed displacements. A body beyond it is lost. In dynamic steps it is a finding.
     elastic_slip
-        False slip of sticking points over an increment, over the elastic approach. Not judged in motion, where a point that comes to rest
+        Elastic slip of sticking points over an increment, over the elastic approach. Not judged in dynamic steps, where a point that comes to rest
         sticks.
     energy
         Residual of the energy balance over the energy stored and dissipated (at least the work of the forces along a millionth of the model), at the end. If not given: `solver.energy-limit`. In a
@@ -1522,7 +1519,7 @@ class Limits(Table):
         Friction obeyed: by how much the shear of points that slip is not their limit or acts along their slip, and that of points that stick is above it,
         over the largest limit of the interface. Found from the tractions that are reported and from how the points have moved.
     gate
-        What becomes of a figure above its limit.
+        Action on a figure above its limit.
     local_rotation
         Rotation of the cell of each body that turns most, in radians: parts of a body may turn where it does not as a whole. The false strain there is
         half the square. The limit is wider, as cells at corners turn far and carry little.
@@ -1715,7 +1712,7 @@ class Measured(Table):
 
 
 class ModalDamping(Table):
-    """`damping` of a harmonic step: what real modes lose, each by itself, beside what bodies, dashpots and contact dissipate.
+    """Modal damping, in addition to that of bodies, dashpots and contact.
 
     Parameters
     ----------
@@ -1822,7 +1819,7 @@ class Nodes(Table):
 
 
 class Normal(Table):
-    """How the interface resists being pressed together."""
+    """The normal law: pressure as a function of the gap."""
 
     @staticmethod
     def unilateral() -> Normal:
@@ -1974,14 +1971,14 @@ class Output(Table):
     Parameters
     ----------
     checkpoint
-        When the state is written from which `stickslip resume` goes on. It is written in any case when a run is asked to stop.
+        Checkpoints, from which `stickslip resume` continues. One is also written when a run is interrupted.
     every
         Fields are written every so many increments, and at the end of every step; 0 for the ends of steps only.
     fatigue
         Criteria of fretting fatigue, for every cycle that is computed.
     frd
-        Whether fields are written to an `.frd` file as well, which CalculiX GraphiX, PrePoMax, FreeCAD and ccx2paraview read: `fields.frd`, and for a
-        deck `JOB.frd` with what it asks for.
+        Writes fields also to an `.frd` file for CalculiX GraphiX, PrePoMax, FreeCAD and ccx2paraview: `fields.frd`, and for a deck `JOB.frd` with what it
+        asks for.
     history_every
         A row of `history.csv` is written every so many increments, at times of output, and at the end of every step.
     times
@@ -2323,7 +2320,7 @@ class SetWeight(Table):
 
 
 class Slip(Table):
-    """How stick and slip change hands."""
+    """The slip rule: shear traction as a function of relative motion."""
 
     @staticmethod
     def return_mapping() -> Slip:
@@ -2351,7 +2348,7 @@ class Slip(Table):
 
 
 class Solver(Table):
-    """[solver]: when an increment counts as solved, and how equations are solved. All dimensionless.
+    """[solver]: convergence criteria and solvers. All dimensionless.
 
     Parameters
     ----------
@@ -2418,13 +2415,13 @@ class Spring(Table):
 
 
 class SteadySliding(Table):
-    """`steady` of a step: sliding that lasts.
+    """Steady sliding.
 
     Parameters
     ----------
     turning
-        Surfaces of primaries that turn, by interface, as a disc under pads: `turning.pad = { axis = [0, 0, 1], speed = 6 }`. Bodies stay where they are; what turns does so
-        slowly, without centrifugal and gyroscopic forces.
+        Rotating surfaces of primaries, by interface, such as a disc under pads: `turning.pad = { axis = [0, 0, 1], speed = 6 }`. The mesh does not move;
+        centrifugal and gyroscopic forces are not included.
     velocity
         Velocities of surfaces of primaries in this step, by interface, beside their `primary-velocity`: `velocity = { pad = [2, 0, 0] }`.
     """
@@ -2440,43 +2437,44 @@ class Step(Table):
     Parameters
     ----------
     change
-        Laws that change from this step on, by interface: `change.base = { friction.coulomb = { mu = 0.1 } }`.
+        Laws that change in this step, by interface: `change.base = { friction.coulomb = { mu = 0.1 } }`.
     complex_modes
-        Modes of steady sliding about that state: frequencies and growth rates, with friction and damping. No increments either.
+        Complex modes of steady sliding about the state of the step before: frequencies and growth rates, with friction and damping. The step has no
+        increments.
     couplings
         The couplings active in this step; all if not given.
     cycles
-        Goes through the step again and again, for fretting and wear: amplitude tables give one cycle, which has to end as it begins.
+        Repeats the step, for fretting and wear: amplitude tables describe one cycle, which must end as it begins.
     duration
-        How long it lasts, or where it has `cycles` each of them.
+        Duration of the step, or with `cycles` of one cycle.
     dynamic
         Makes the step dynamic; quasi-static if not given.
     harmonic
-        The answer to harmonic loads about that state, by superposition of modes: amplitudes and phases over the frequency. No increments either.
+        Response to harmonic loads about the state of the step before, by modal superposition: amplitudes and phases over the frequency. The step has no
+        increments.
     increments
-        How the step is divided, or where it has `cycles` each of them.
+        Time increments of the step, or with `cycles` of one cycle.
     interfaces
         The interfaces active in this step; all if not given.
     kick
-        Begins a dynamic step along a mode that the step before has found: `kick = { amplitude = 1e-6 }`.
+        Starts a dynamic step with a mode of the step before: `kick = { amplitude = 1e-6 }`.
     loads
         The loads active in this step; all if not given. A load that was active in the step before and is not listed
         falls linearly to zero.
     modes
-        Real modes about the state that the step before has reached: frequencies, shapes and participation, without friction. The step has no increments: time passes, and
-        nothing moves.
+        Real modes about the state of the step before: frequencies, shapes and participation factors, without friction. The step has no increments.
     name
         A name for messages and results; `step 1`, `step 2` if not given.
     pretension
-        What is done with pretensions from this step on: `pretension.bolt = { force = 2e4 }`, `pretension.bolt = { hold = true }`. Before the first step that
-        says so they are held as meshed.
+        Pretensions in this step: `pretension.bolt = { force = 2e4 }`, `pretension.bolt = { hold = true }`. Until a step names a pretension, its cut is
+        closed as meshed.
     steady
-        Sliding that lasts: `steady = {}`. Where the surface of a primary moves by itself (`primary-velocity`, or `velocity` and `turning` here), points that touch slide along
-        that motion from the first increment on, whatever their displacements, as after a long way; others stick and slip as ever.
+        Steady sliding: `steady = {}`. Where the surface of a primary moves (`primary-velocity`, or `velocity` and `turning` here), contact points slide
+        along that motion from the first increment on. Interfaces without such a velocity stick and slip as usual.
     supports
         The supports active in this step; all if not given.
     temperatures
-        The temperatures that act in this step; all if not given. Points whose temperature is not listed any more go back to the one of the start.
+        The temperatures active in this step; all if not given. Points without an active temperature return to their temperature at the start.
     """
 
     def __init__(self, *, change: Mapping[str, Change] | None = None, complex_modes: ComplexModes | None = None, couplings: Sequence[str] | None = None, cycles: Cycles | None = None, duration: float | None = None, dynamic: Dynamic | None = None, harmonic: Harmonic | None = None, increments: Increments | None = None, interfaces: Sequence[str] | None = None, kick: Kick | None = None, loads: Sequence[str] | None = None, modes: Modes | None = None, name: str | None = None, pretension: Mapping[str, Tension] | None = None, steady: SteadySliding | None = None, supports: Sequence[str] | None = None, temperatures: Sequence[str] | None = None) -> None:
@@ -2509,7 +2507,7 @@ class Support(Table):
     amplitude
         An [amplitude.NAME] over the time of the analysis, by which the displacements are multiplied.
     hold
-        Components that are held where they are when the support begins to act: `hold = ["y"].
+        Components that are held where they are when the support begins to act: `hold = ["y"]`.
     rotation_x
         Rotation about x [rad], in 3D, of a reference point.
     rotation_y
@@ -2611,18 +2609,18 @@ class TemperatureKind(Table):
 
 
 class Tension(Table):
-    """What a step does with a pretension: one of `force`, `shortening` and `hold`.
+    """Pretension in a step: one of `force`, `shortening` and `hold`.
 
     Parameters
     ----------
     amplitude
         An [amplitude.NAME] over the time of the analysis, by which force or shortening is multiplied instead.
     force
-        Force that draws the two sides together, on the whole section, to which it grows from what it is over the step.
+        Force of the whole section, reached linearly over the step.
     hold
-        Whether the shortening stays what it is.
+        Keeps the present shortening.
     shortening
-        By how much the two sides overlap, as if so much of the bolt was cut out, to which it grows from what it is over the step.
+        Overlap of the two sides, as if that length of the bolt was removed, reached linearly over the step.
     """
 
     def __init__(self, *, amplitude: str | None = None, force: float | None = None, hold: bool | None = None, shortening: float | None = None) -> None:

@@ -11,7 +11,7 @@ use crate::number::digits;
 #[derive(Debug, Clone, Default, Serialize, crate::keep::Keep)]
 #[serde(rename_all = "kebab-case")]
 pub struct Gate {
-    /// What becomes of a figure above its limit.
+    /// Action on a figure above its limit.
     pub gate: GateMode,
     /// Whether all figures kept their limits.
     pub met: bool,

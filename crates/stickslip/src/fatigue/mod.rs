@@ -21,7 +21,7 @@ pub use ruiz::{Ruiz, RuizWork};
 pub use smith_watson_topper::SmithWatsonTopper;
 
 crate::family! {
-    /// What says how badly a cycle treats a point.
+    /// A criterion of fretting fatigue.
     FatigueModel: "fatigue", dyn Criterion {
         /// Stress along the surface times shear times slip.
         Ruiz(Ruiz) = "ruiz",

@@ -34,15 +34,15 @@ pub enum Jump {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct ChosenJump {
-    /// Largest error that jumps may make, beside cycles that are all computed: of the worn volume relative to itself, summed over the places of a surface without sign, and of the
-    /// depth at every place relative to the greatest `[-]`. A cycle that stands for too many is taken back.
+    /// Largest error of jumps, compared with computing all cycles: of the worn volume relative to itself, summed over the places of a surface without
+    /// sign, and of the depth at every place relative to the greatest. A jump that is too long is repeated with fewer cycles `[-]`.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0), range(max = 1)))]
     pub error: f64,
-    /// How many cycles the first stands for. Default: 1.
+    /// Number of cycles of the first jump. Default: 1.
     #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
     #[serde(default = "once", skip_serializing_if = "is_once")]
     pub first: usize,
-    /// How many one stands for at most. Default: all that are left.
+    /// Largest number of cycles of a jump. Default: all that remain.
     #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub largest: Option<usize>,

@@ -192,14 +192,14 @@ pub struct Initial {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Solution {
-    /// Whatever costs least by the counts of the symbolic factorisation.
+    /// The method with the least estimated cost.
     #[default]
     Automatic,
-    /// Bodies are factored once and felt at the contact candidates only.
+    /// Bodies are factored once and condensed to the contact candidates.
     Condensed,
-    /// The sparse matrix of everything is factored when the interfaces have changed much.
+    /// The sparse matrix of the whole model is factored again when the contact state has changed much.
     Sparse,
-    /// The sparse matrix of everything is solved by multigrid and GMRES: for bodies whose factors would be too large.
+    /// The sparse matrix of the whole model is solved by multigrid and GMRES: for bodies whose factors would be too large.
     Multigrid,
 }
 

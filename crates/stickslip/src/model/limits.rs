@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What becomes of a figure above its limit.
+/// Action on a figure above its limit.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, crate::keep::Keep)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
@@ -22,7 +22,7 @@ pub enum GateMode {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Limits {
-    /// What becomes of a figure above its limit.
+    /// Action on a figure above its limit.
     pub gate: GateMode,
     /// Penetration that the normal law did not ask for, `max(h(p) - g)` over the height of the cell beneath. Not judged in an explicit
     /// step, which presses by springs.
@@ -32,7 +32,7 @@ pub struct Limits {
     /// the interface, at least the mean compression of one layer of cells. In motion the largest so far of both are compared. Not judged in an explicit step.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub penetration_to_approach: f64,
-    /// False slip of sticking points over an increment, over the elastic approach. Not judged in motion, where a point that comes to rest
+    /// Elastic slip of sticking points over an increment, over the elastic approach. Not judged in dynamic steps, where a point that comes to rest
     /// sticks.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub elastic_slip: f64,
@@ -106,8 +106,7 @@ pub struct Limits {
     /// the norm of energy.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub mode_residual: f64,
-    /// Displacement of each body, over the size of the model and the way that supports and obstacles prescribe. Beyond it a body has been lost. In
-    /// motion bodies may fly as far as they like: there it is a finding.
+    /// Displacement of each body over the size of the model and the prescribed displacements. A body beyond it is lost. In dynamic steps it is a finding.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0, "infinite" = true)))]
     pub displacement: f64,
     /// In explicit steps, where springs as stiff as the cells beneath keep surfaces apart and in stick: work of their forces along what they give way, halved, over the elastic energy of all

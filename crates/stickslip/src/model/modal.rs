@@ -124,7 +124,7 @@ impl Frequencies {
     }
 }
 
-/// `damping` of a harmonic step: what real modes lose, each by itself, beside what bodies, dashpots and contact dissipate.
+/// Modal damping, in addition to that of bodies, dashpots and contact.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]

@@ -97,7 +97,7 @@ impl<'a> Scene<'a> {
         out
     }
 
-    /// The state as bodies see it that know of no turn: what is left of displacements in their frames.
+    /// The state for bodies without rotation: what is left of displacements in their frames.
     pub(crate) fn strained(&self) -> Cow<'a, State> {
         let (bodies, state) = (&self.model.corotations, &self.frame.state);
         match bodies.is_empty() {

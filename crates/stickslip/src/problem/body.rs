@@ -29,7 +29,7 @@ pub struct Body {
     /// How far the body may turn.
     #[serde(default, skip_serializing_if = "BodyRotation::is_small")]
     pub rotation: BodyRotation,
-    /// What the elements do with the change of volume.
+    /// Element formulation.
     #[serde(default)]
     pub formulation: Formulation,
     /// Factor on the coordinates of the mesh, applied before `translate`: 1e-3 for a mesh in mm and a problem in m.

@@ -15,14 +15,14 @@ use crate::time::{ContactAt, ContactMass};
 pub struct Dynamic {
     /// How the equations of motion are integrated.
     pub scheme: SchemeModel,
-    /// How the mass of a cell is given to its points. An explicit scheme has lumped masses in any case.
+    /// Mass matrix of cells. An explicit scheme has lumped masses.
     pub mass: MassKind,
-    /// Whether the points of interfaces have mass. By default it is redistributed where the normal law is unilateral, and
-    /// left as meshed where it is compliant and in an explicit scheme. Tied surfaces keep theirs in any case.
+    /// Mass of contact points. Default: redistributed if the normal law is unilateral, as meshed if it is compliant or the scheme explicit. Tied surfaces
+    /// keep their mass.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_mass: Option<ContactMass>,
-    /// Where in the increment the forces of the interfaces are taken. By default at its stage where the laws of all interfaces are compliant and
-    /// couplings are springs and dashpots only, else at its end.
+    /// Where in the increment contact forces are evaluated. Default: `stage` if the laws of all interfaces are compliant and couplings are springs and
+    /// dashpots only, else `end`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact_at: Option<ContactAt>,
     /// Largest local error of the displacements over an increment, relative to the motion since the start of the step; an increment with

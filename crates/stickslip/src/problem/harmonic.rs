@@ -4,16 +4,16 @@ use serde::{Deserialize, Serialize};
 
 use crate::model::{Frequencies, HarmonicPlan, Modal, ModalDamping};
 
-/// `harmonic` of a step: amplitude and phase of the displacements at probes under loads that go with the cosine of time, about the state that the step before has reached,
-/// with its closed contacts and the friction of `steady` sliding, and with all damping. `harmonic = { loads = ["shaker"], from = 10, to = 500, points = 100 }`. Loads that
-/// shake do not act before: leave them out of `loads` of the steps before. Supports stand still.
+/// Amplitude and phase of the displacements at probes under harmonic loads, about the state of the step before, with its closed contacts, the friction of
+/// `steady` sliding, and all damping. `harmonic = { loads = ["shaker"], from = 10, to = 500, points = 100 }`. Harmonic loads must not act before: leave
+/// them out of `loads` of the steps before. Supports do not vibrate.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Harmonic {
     /// The loads, in full: amplitudes over time do not count.
     pub loads: Vec<String>,
-    /// By how much loads lead the others, by name `[degrees]`: `phases.second = 90`; zero if not given.
+    /// Phase lead of loads, by name: `phases.second = 90`; zero if not given `[degrees]`.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub phases: BTreeMap<String, f64>,
     /// The frequencies `[1/time]`, instead of `from`, `to` and `points`.
@@ -29,15 +29,16 @@ pub struct Harmonic {
     /// How many frequencies, ends counted.
     #[cfg_attr(feature = "schema", schemars(range(min = 2, max = 100_000)))]
     pub points: usize,
-    /// Frequencies crowd at the modes: `points` of them from each of `from`, the frequencies of the real modes between, and `to` to the next, ends counted, the nearer to
-    /// the ends the larger this is. 1 is even; 3 is the default of Abaqus and CalculiX. If not given, `points` are spread evenly from `from` to `to`.
+    /// Concentrates frequencies near the modes: `points` of them between neighbouring real modes, and between these and `from` and `to`, ends counted;
+    /// the larger, the closer to the ends. 1 is even; 3 is the default of Abaqus and CalculiX. If not given, `points` are spread evenly from `from` to
+    /// `to`.
     #[cfg_attr(feature = "schema", schemars(extend("minimum" = 1)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bias: Option<f64>,
     /// Damping of the real modes, beside that of bodies, dashpots and contact.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub damping: Option<ModalDamping>,
-    /// At most so many modes are superposed; those up to one and a half times the highest frequency are, and the give at rest of all others.
+    /// Largest number of superposed modes; those up to one and a half times the highest frequency are used, with a static correction for the others.
     #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
     pub count: usize,
     /// Whether displacements of all points are written as fields, real and imaginary parts, for each frequency.

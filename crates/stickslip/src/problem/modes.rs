@@ -107,9 +107,9 @@ impl ComplexModes {
     }
 }
 
-/// `kick` of a dynamic step: displacements and velocities of a mode are added to the state that the step before, one with `modes` or `complex-modes`, has left. The
-/// history tells how much of the mode is in the motion: `MODE.A`, its amplitude, `MODE.PHASE`, and `MODE.REST`, the part of the kinetic energy that is not of it;
-/// `modes-N-growth.csv` compares with the eigenvalue.
+/// Adds displacements and velocities of a mode to the state of the step before, one with `modes` or `complex-modes`. The history has the amplitude of the
+/// mode, `MODE.A`, its phase, `MODE.PHASE`, and `MODE.REST`, the part of the kinetic energy outside the mode; `modes-N-growth.csv` compares with the
+/// eigenvalue.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
@@ -162,13 +162,13 @@ impl Default for FrictionRange {
     }
 }
 
-/// `steady` of a step: sliding that lasts.
+/// Steady sliding.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct SteadySliding {
-    /// Surfaces of primaries that turn, by interface, as a disc under pads: `turning.pad = { axis = [0, 0, 1], speed = 6 }`. Bodies stay where they are; what turns does so
-    /// slowly, without centrifugal and gyroscopic forces.
+    /// Rotating surfaces of primaries, by interface, such as a disc under pads: `turning.pad = { axis = [0, 0, 1], speed = 6 }`. The mesh does not move;
+    /// centrifugal and gyroscopic forces are not included.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub turning: BTreeMap<String, Turning>,
     /// Velocities `[length/time]` of surfaces of primaries in this step, by interface, beside their `primary-velocity`: `velocity = { pad = [2, 0, 0] }`.

@@ -15,13 +15,13 @@ pub struct Output {
     pub history_every: usize,
     /// Further times `[time]` at which fields are written, increasing. Increments land on them.
     pub times: Vec<f64>,
-    /// Whether fields are written to an `.frd` file as well, which CalculiX GraphiX, PrePoMax, FreeCAD and ccx2paraview read: `fields.frd`, and for a
-    /// deck `JOB.frd` with what it asks for.
+    /// Writes fields also to an `.frd` file for CalculiX GraphiX, PrePoMax, FreeCAD and ccx2paraview: `fields.frd`, and for a deck `JOB.frd` with what it
+    /// asks for.
     pub frd: Frd,
     /// Criteria of fretting fatigue, for every cycle that is computed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fatigue: Option<Fatigue>,
-    /// When the state is written from which `stickslip resume` goes on. It is written in any case when a run is asked to stop.
+    /// Checkpoints, from which `stickslip resume` continues. One is also written when a run is interrupted.
     pub checkpoint: CheckpointPlan,
 }
 
@@ -57,7 +57,7 @@ impl Frd {
 pub struct CheckpointPlan {
     /// After so many increments; 0: not by their number. Of condensed bodies up to sixteen are found together: then after the last of them.
     pub increments: usize,
-    /// After so many minutes of the clock on the wall; 0: not by the clock.
+    /// Wall-clock minutes between checkpoints; 0: not by time.
     #[cfg_attr(feature = "schema", schemars(range(min = 0)))]
     pub minutes: f64,
 }

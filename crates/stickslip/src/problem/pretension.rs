@@ -44,18 +44,18 @@ pub struct FacetSection {
     pub normal: Option<Vec<f64>>,
 }
 
-/// What a step does with a pretension: one of `force`, `shortening` and `hold`.
+/// Pretension in a step: one of `force`, `shortening` and `hold`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Tension {
-    /// Force that draws the two sides together, on the whole section, to which it grows from what it is over the step `[force]`.
+    /// Force of the whole section, reached linearly over the step `[force]`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub force: Option<f64>,
-    /// By how much the two sides overlap, as if so much of the bolt was cut out, to which it grows from what it is over the step `[length]`.
+    /// Overlap of the two sides, as if that length of the bolt was removed, reached linearly over the step `[length]`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shortening: Option<f64>,
-    /// Whether the shortening stays what it is.
+    /// Keeps the present shortening.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub hold: bool,
     /// An `[amplitude.NAME]` over the time of the analysis, by which force or shortening is multiplied instead.

@@ -4,7 +4,13 @@
 /// backticks; everything else stays.
 #[cfg(any(test, feature = "schema"))]
 pub(super) fn without_links(text: &str) -> String {
-    let text = text.replace("`[", "[").replace("]`", "]");
+    let code = |(i, part): (usize, &str)| match i % 2 == 0
+        || part.starts_with('[') && part.ends_with(']')
+    {
+        true => part.to_string(),
+        false => format!("`{part}`"),
+    };
+    let text: String = text.split('`').enumerate().map(code).collect();
     let mut out = String::new();
     let mut rest = text.as_str();
     while let Some(middle) = rest.find("](") {
@@ -46,8 +52,8 @@ mod tests {
     #[test]
     fn links_become_their_text() {
         assert_eq!(
-            without_links("A [law](crate::x) `[m]` of [`y`](crate::y), entry [1](2"),
-            "A law [m] of y, entry [1](2"
+            without_links("A [law](crate::x) `[m]` of [`y`](crate::y), `z = [1]`, entry [1](2"),
+            "A law [m] of y, `z = [1]`, entry [1](2"
         );
         assert_eq!(without_links("a_[i] and (b)"), "a_[i] and (b)");
     }

@@ -41,7 +41,9 @@ pub(super) fn of_entry(family: &str, kind: &str) -> Value {
 /// The schema as it follows from the structs, with the links of their documentation taken out of its descriptions.
 #[cfg(feature = "schema")]
 pub fn derived() -> Value {
-    plain(schemars::schema_for!(super::Problem).to_value())
+    let mut schema = plain(schemars::schema_for!(super::Problem).to_value());
+    schema["$id"] = format!("urn:stickslip:problem-file:{}", super::FORMAT).into();
+    schema
 }
 
 #[cfg(feature = "schema")]

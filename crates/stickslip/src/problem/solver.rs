@@ -3,7 +3,7 @@ use serde::{Deserialize, Serialize};
 use crate::model::Solution;
 use crate::newton::condensed::engine::EngineModel;
 
-/// `[solver]`: when an increment counts as solved, and how equations are solved. All dimensionless.
+/// `[solver]`: convergence criteria and solvers. All dimensionless.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]

@@ -15,7 +15,7 @@ pub struct Step {
     /// A name for messages and results; `step 1`, `step 2` if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// How long it lasts, or where it has `cycles` each of them `[time]`.
+    /// Duration of the step, or with `cycles` of one cycle `[time]`.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
     #[serde(default = "one")]
     pub duration: f64,
@@ -26,7 +26,7 @@ pub struct Step {
     /// falls linearly to zero.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub loads: Option<Vec<String>>,
-    /// The temperatures that act in this step; all if not given. Points whose temperature is not listed any more go back to the one of the start.
+    /// The temperatures active in this step; all if not given. Points without an active temperature return to their temperature at the start.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub temperatures: Option<Vec<String>>,
     /// The interfaces active in this step; all if not given.
@@ -35,52 +35,53 @@ pub struct Step {
     /// The couplings active in this step; all if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub couplings: Option<Vec<String>>,
-    /// What is done with pretensions from this step on: `pretension.bolt = { force = 2e4 }`, `pretension.bolt = { hold = true }`. Before the first step that
-    /// says so they are held as meshed.
+    /// Pretensions in this step: `pretension.bolt = { force = 2e4 }`, `pretension.bolt = { hold = true }`. Until a step names a pretension, its cut is
+    /// closed as meshed.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub pretension: BTreeMap<String, Tension>,
-    /// Laws that change from this step on, by interface: `change.base = { friction.coulomb = { mu = 0.1 } }`.
+    /// Laws that change in this step, by interface: `change.base = { friction.coulomb = { mu = 0.1 } }`.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub change: BTreeMap<String, Change>,
-    /// Goes through the step again and again, for fretting and wear: amplitude tables give one cycle, which has to end as it begins.
+    /// Repeats the step, for fretting and wear: amplitude tables describe one cycle, which must end as it begins.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cycles: Option<Cycles>,
-    /// Sliding that lasts: `steady = {}`. Where the surface of a primary moves by itself (`primary-velocity`, or `velocity` and `turning` here), points that touch slide along
-    /// that motion from the first increment on, whatever their displacements, as after a long way; others stick and slip as ever.
+    /// Steady sliding: `steady = {}`. Where the surface of a primary moves (`primary-velocity`, or `velocity` and `turning` here), contact points slide
+    /// along that motion from the first increment on. Interfaces without such a velocity stick and slip as usual.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steady: Option<SteadySliding>,
-    /// Real modes about the state that the step before has reached: frequencies, shapes and participation, without friction. The step has no increments: time passes, and
-    /// nothing moves.
+    /// Real modes about the state of the step before: frequencies, shapes and participation factors, without friction. The step has no increments.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub modes: Option<Modes>,
-    /// Modes of steady sliding about that state: frequencies and growth rates, with friction and damping. No increments either.
+    /// Complex modes of steady sliding about the state of the step before: frequencies and growth rates, with friction and damping. The step has no
+    /// increments.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub complex_modes: Option<ComplexModes>,
-    /// The answer to harmonic loads about that state, by superposition of modes: amplitudes and phases over the frequency. No increments either.
+    /// Response to harmonic loads about the state of the step before, by modal superposition: amplitudes and phases over the frequency. The step has no
+    /// increments.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub harmonic: Option<Harmonic>,
-    /// How the step is divided, or where it has `cycles` each of them.
+    /// Time increments of the step, or with `cycles` of one cycle.
     #[serde(default)]
     pub increments: Increments,
     /// Makes the step dynamic; quasi-static if not given.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dynamic: Option<Dynamic>,
-    /// Begins a dynamic step along a mode that the step before has found: `kick = { amplitude = 1e-6 }`.
+    /// Starts a dynamic step with a mode of the step before: `kick = { amplitude = 1e-6 }`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub kick: Option<Kick>,
 }
 
-/// How often a step is gone through. The time of the analysis goes on by one duration for each cycle that is computed, or where jumps are chosen for each cycle that is over;
-/// amplitude tables, and what follows in them, count one cycle.
+/// Cycles of a step. The time of the analysis advances by one duration for each computed cycle, with chosen jumps for each completed cycle; amplitude
+/// tables count one cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Cycles {
-    /// How many cycles there are.
+    /// Number of cycles.
     #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
     pub count: usize,
-    /// How many of them each cycle that is computed stands for: what slides in it wears as often. Or the error that jumps over cycles may make, `{ error = 0.01 }`, by
-    /// which each is chosen. Default: 1.
+    /// Number of cycles that each computed one stands for: its wear counts that often. Or the largest error of jumps over cycles, `{ error = 0.01 }`,
+    /// from which each jump is chosen. Default: 1.
     #[serde(default)]
     pub jump: Jump,
 }

@@ -7,21 +7,21 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum ContactMass {
-    /// The mass of the points of both surfaces is given to their neighbours
-    /// ([`khenous_2008`](crate::references::khenous_2008)); mass and centre of mass of the body stay. Contact forces do not chatter,
-    /// and hardly any energy is gained or lost at impact.
+    /// The mass of contact points is moved to their neighbours ([`khenous_2008`](crate::references::khenous_2008)); mass and centre of mass of the body
+    /// stay. Contact forces do not oscillate, and impacts hardly change the energy.
     Redistributed,
-    /// Every point has the mass that the cells give it: the classical scheme.
+    /// Contact points keep their mass: the classical scheme.
     AsMeshed,
 }
 
-/// Where in the increment the forces of the interfaces are taken.
+/// Where in the increment contact forces are evaluated. Default: `stage` if the laws of all interfaces are compliant and couplings are springs and
+/// dashpots only, else `end`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum ContactAt {
-    /// At its end: nothing overlaps there and friction opposes the velocity there. Of first order; it dissipates.
+    /// At the end: no overlap at that time, and friction opposes the velocity. First order; dissipative.
     End,
-    /// As the mean over the increment with which the scheme weighs all other forces: of second order where laws are compliant. For Newmark's method it is the same.
+    /// With the weights of the scheme for all other forces: second order with compliant laws. Equal to `end` for Newmark's method.
     Stage,
 }

@@ -15,7 +15,11 @@ pub const APART: &[(&str, &str, &str)] = &[
     ("stop-across", "floor", "There is no lower corner."),
     ("dashpot-across", "floor", "There is no lower corner."),
     ("spring-across", "floor", "There is no lower corner."),
-    ("turning", "multigrid", "Grids know of no frame that turns."),
+    (
+        "turning",
+        "multigrid",
+        "Grids do not include frames that turn.",
+    ),
     (
         "clamp",
         "displaced",

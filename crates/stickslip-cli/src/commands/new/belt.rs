@@ -6,13 +6,13 @@ use super::written::{Values, Written};
 use crate::failure::Failure;
 use stickslip::number::digits;
 
-/// A mass on a moving belt, held by a spring, with more friction at rest than in motion: stick-slip.
+/// A mass on a spring on a moving belt, with static and kinetic friction: stick-slip.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Mass.
     #[arg(long, value_name = "MASS", default_value = "1kg", value_parser = quantity::of(MASS), allow_hyphen_values = true)]
     mass: f64,
-    /// Force that presses it on the belt.
+    /// Normal force on the belt.
     #[arg(long, value_name = "FORCE", default_value = "10N", value_parser = quantity::of(FORCE), allow_hyphen_values = true)]
     load: f64,
     /// Stiffness of the spring.

@@ -6,22 +6,22 @@ use super::written::{MM, MPA, Values, Written};
 use crate::failure::Failure;
 use stickslip::number::digits;
 
-/// A bolt that is tightened, holds a sleeve on a base, and is pulled.
+/// A bolt that clamps a sleeve on a base, tightened and then loaded.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Diameter of the shank.
     #[arg(long, value_name = "LENGTH", default_value = "10mm", value_parser = quantity::of(LENGTH), allow_hyphen_values = true)]
     diameter: f64,
-    /// Force to which it is tightened.
+    /// Preload of the bolt.
     #[arg(long, value_name = "FORCE", default_value = "20kN", value_parser = quantity::of(FORCE), allow_hyphen_values = true)]
     preload: f64,
-    /// Length that it grips.
+    /// Grip length.
     #[arg(long, value_name = "LENGTH", default_value = "40mm", value_parser = quantity::of(LENGTH), allow_hyphen_values = true)]
     grip: f64,
-    /// Outer diameter of the sleeve; two and a half times that of the bolt if not given.
+    /// Outer diameter of the sleeve; default: 2.5 bolt diameters.
     #[arg(long, value_name = "LENGTH", value_parser = quantity::of(LENGTH), allow_hyphen_values = true)]
     sleeve: Option<f64>,
-    /// Force that pulls at the sleeve once the bolt is tight.
+    /// Pulling force on the sleeve after tightening.
     #[arg(long, value_name = "FORCE", default_value = "5kN", value_parser = quantity::of(FORCE), allow_hyphen_values = true)]
     pull: f64,
     /// Young's modulus of bolt and sleeve.

@@ -8,7 +8,7 @@ use super::written::{MM, MPA, Values, Written};
 use crate::failure::Failure;
 use stickslip::number::digits;
 
-/// A cylinder pressed on a flat that is driven back and forth: both wear after Archard, over many cycles.
+/// Fretting of a cylinder on a flat: both wear by Archard's law over many cycles.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Radius of the cylinder.
@@ -19,22 +19,22 @@ pub struct Arguments {
     load: f64,
     #[command(flatten)]
     materials: Materials,
-    /// How far the flat is driven to each side.
+    /// Amplitude of the motion of the flat.
     #[arg(long, value_name = "LENGTH", default_value = "25um", value_parser = quantity::of(LENGTH), allow_hyphen_values = true)]
     amplitude: f64,
     /// Coefficient of friction.
     #[arg(long, value_name = "MU", default_value = "0.9", value_parser = quantity::friction)]
     friction: f64,
-    /// Volume worn off each of both surfaces over load and path.
+    /// Wear rate of each surface: worn volume per load and sliding distance.
     #[arg(long, value_name = "RATE", default_value = "2.4e-8/MPa", value_parser = quantity::of(WEAR), allow_hyphen_values = true)]
     wear: f64,
     /// Cycles.
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
     cycles: u32,
-    /// Cycles of them that are computed; each stands for the same number. More of them, the smaller the error of the scar.
+    /// Number of computed cycles; each stands for the same number of cycles. More of them reduce the error of the wear depth.
     #[arg(long, value_name = "N", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..))]
     computed: u32,
-    /// Cells on the half-width of first contact.
+    /// Cells on the initial contact half-width.
     #[arg(long, value_name = "N", default_value_t = 6, value_parser = clap::value_parser!(u32).range(3..=100))]
     cells: u32,
     #[command(flatten)]

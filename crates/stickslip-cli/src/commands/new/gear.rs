@@ -8,7 +8,7 @@ use crate::failure::Failure;
 /// Two spur gears that turn through two pitches under a torque.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
-    /// Teeth of the pinion, which drives.
+    /// Teeth of the driving pinion.
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(5..=200))]
     teeth: u32,
     /// Teeth of the wheel.
@@ -20,7 +20,7 @@ pub struct Arguments {
     /// Width of the teeth.
     #[arg(long, value_name = "LENGTH", default_value = "10mm", value_parser = quantity::of(LENGTH), allow_hyphen_values = true)]
     width: f64,
-    /// Torque that holds the wheel back.
+    /// Load torque on the wheel.
     #[arg(long, value_name = "TORQUE", default_value = "20Nm", value_parser = quantity::of(TORQUE), allow_hyphen_values = true)]
     torque: f64,
     /// Young's modulus of both.
@@ -32,7 +32,7 @@ pub struct Arguments {
     /// Cells along a flank.
     #[arg(long, value_name = "N", default_value_t = 80, value_parser = clap::value_parser!(u32).range(40..=400))]
     cells: u32,
-    /// Positions in each of the two pitches.
+    /// Computed positions in each of the two pitches.
     #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u32).range(8..=1000))]
     positions: u32,
     #[command(flatten)]

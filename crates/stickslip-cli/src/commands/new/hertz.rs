@@ -23,7 +23,7 @@ pub struct Materials {
     /// Poisson's ratio of the flat.
     #[arg(long, value_name = "NU", value_parser = quantity::poisson)]
     pub flat_poisson: Option<f64>,
-    /// Yield stress of the softer body: a load that makes it flow is refused.
+    /// Yield stress of the softer body; a load above the elastic limit is refused.
     #[arg(long = "yield", value_name = "STRESS", value_parser = quantity::of(STRESS), allow_hyphen_values = true)]
     pub strength: Option<f64>,
 }

@@ -21,8 +21,7 @@ use crate::print;
 use crate::style::WIDTH;
 use written::Written;
 
-/// Write a problem file from a few numbers with units: meshes are sized to the expected contact, and what theory expects is told and written
-/// beside it, to compare results with.
+/// Write a problem file from a few numbers with units, with a mesh sized to the expected contact, and a file with the theoretical results.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -32,7 +31,7 @@ Examples:
   stickslip new bolt --diameter 10mm --preload 20kN --grip 40mm --pull 5kN
   stickslip new belt --mass 1kg --load 10N --stiffness 100N/m --speed 0.1m/s --static 0.5 --kinetic 0.3
   stickslip new gear --teeth 20 --wheel 30 --module 2mm --width 10mm --torque 20Nm
-Every number has a default. A file that is there already is not written over.")]
+All options have defaults. Existing files are not overwritten.")]
 pub struct Arguments {
     #[command(subcommand)]
     kind: Kind,

@@ -13,7 +13,7 @@ pub struct Arguments {
     /// Radius of the round body.
     #[arg(long, value_name = "LENGTH", default_value = "10mm", value_parser = quantity::of(LENGTH), allow_hyphen_values = true)]
     radius: f64,
-    /// A load per length, as 100N/mm, presses a cylinder; a force, as 50N, a ball.
+    /// Load per length (100N/mm) for a cylinder, force (50N) for a ball.
     #[arg(long, value_name = "LOAD", default_value = "100N/mm", value_parser = quantity::load, allow_hyphen_values = true)]
     load: Load,
     #[command(flatten)]
@@ -21,7 +21,7 @@ pub struct Arguments {
     /// The flat is rigid.
     #[arg(long, conflicts_with_all = ["flat_young", "flat_poisson"])]
     rigid: bool,
-    /// Cells on the half-width of contact.
+    /// Cells on the contact half-width.
     #[arg(long, value_name = "N", default_value_t = 12, value_parser = clap::value_parser!(u32).range(4..=200))]
     cells: u32,
     #[command(flatten)]

@@ -11,6 +11,9 @@ pub const MM: f64 = 1e3;
 /// Megapascals in a pascal; also N/mm in a N/m times [`MM`].
 pub const MPA: f64 = 1e-6;
 
+/// The first line of a problem file, by which editors find its schema: `stickslip schema` writes it.
+const SCHEMA: &str = "#:schema ./stickslip.schema.json";
+
 /// What stands for the names in a template.
 #[derive(Debug, Default)]
 pub struct Values<'a> {
@@ -46,7 +49,7 @@ impl Written {
         let title = part("title", "").trim_end().to_string();
         let checks = part("expected", &title);
         Written {
-            problem: part("problem", &title),
+            problem: format!("{SCHEMA}\n{}", part("problem", &title)),
             expected: format!(
                 "# What theory says of it: {title}.\nformat = 1\nsource = \"closed forms\"\n{checks}"
             ),

@@ -34,20 +34,20 @@ use plan::{Plan, folder_of_run, runs};
 use shard::{Shard, Share, Sweep, processor};
 use table::Table;
 
-/// Run an analysis for many values and write one table: a row a run.
+/// Run an analysis for many values and write one table with a row for each run.
 #[derive(Debug, clap::Args)]
 #[command(override_usage = "\
 stickslip sweep [OPTIONS] --set <PATH=V1,V2,...> <FILE>
        stickslip sweep --merge <DIR>... [-o <FILE>] [--results <DIR>]")]
 #[command(after_help = "\
 Values are TOML: numbers, true, \"text\", [1, 2], { x = 1 }; commas inside do not separate. A range from..to:count
-includes both ends. Bodies that stay the same are factored once. The columns of the table are run, the axes, outcome, increments, iterations, cutbacks,
-and the last row of the history; what runs took is in a table beside it, TABLE.effort.csv. All values are checked before the first run. A run that
-fails does not stop the others: its outcome says why, and the exit code is 1. One that does not pass the quality gate says
-so too, and the exit code is 2 if none failed.
+includes both ends. Bodies that do not change are factored once. The columns of the table are run, the axes, outcome, increments, iterations, cutbacks,
+and the last row of the history; time and memory are in TABLE.effort.csv. All values are checked before the first run. A failed run
+does not stop the others: its outcome has the reason, and the exit code is 1. If a run fails the quality gate and none failed otherwise,
+the exit code is 2.
 
-On several machines each process makes one part, --shard 1/4 to --shard 4/4, with the same other arguments; killed, it goes on with the same command.
---merge makes the table of the parts, which is that of one process byte for byte.
+On several machines each process runs one part, --shard 1/4 to --shard 4/4, with the same other arguments; the same command continues a killed part.
+--merge writes the table of all parts, byte for byte that of one process.
 
 Examples:
   stickslip sweep case.toml --set interface.base.friction.coulomb.mu=0.1..0.5:5 --set support.top.y=-1e-5,-2e-5
@@ -55,50 +55,49 @@ Examples:
   stickslip sweep case.toml --set interface.base.friction.coulomb.mu=0.1..0.5:50 --cache factors --shard 2/4
   stickslip sweep --merge case.sweep.shards")]
 pub struct Arguments {
-    /// The problem file, or an input deck of Abaqus or CalculiX (`.inp`), whose values go by the names that `convert` gives them.
+    /// The problem file, or an input deck of Abaqus or CalculiX (`.inp`) with the keys that `convert` writes.
     #[arg(required_unless_present = "merge")]
     file: Option<PathBuf>,
-    /// An axis: a key and its values. Several make all combinations, the last one changing fastest.
+    /// An axis: a key and its values. Several axes make all combinations; the last one changes fastest.
     #[arg(
         long = "set",
         value_name = "PATH=V1,V2,...",
         required_unless_present = "merge"
     )]
     set: Vec<String>,
-    /// One value for all runs, as `run --set`.
+    /// A value for all runs, as `run --set`.
     #[arg(long = "fix", value_name = "PATH=VALUE")]
     fix: Vec<String>,
-    /// Axes of equal length run side by side, instead of in all combinations.
+    /// Combine axes of equal length value by value, instead of all combinations.
     #[arg(long)]
     zip: bool,
-    /// A quantity of the history that the table shall have; all if not given. Can be repeated.
+    /// A column of the history for the table; default: all. Can be repeated.
     #[arg(long = "column", value_name = "NAME")]
     column: Vec<String>,
-    /// Look for values of the last axis where a column goes through zero between two runs, such as MODES.GROWTH: more runs between them, and
-    /// a table TABLE.critical.csv.
+    /// Find values of the last axis where a column, such as MODES.GROWTH, changes sign, by additional runs, and write TABLE.critical.csv.
     #[arg(long, value_name = "NAME", conflicts_with_all = ["shard", "zip", "merge"])]
     critical: Option<String>,
-    /// The table, TABLE.csv; `<file>.sweep.csv` beside the file if not given. It is complete after every run. Shards are in `TABLE.shards`.
+    /// The table, TABLE.csv; default: `<file>.sweep.csv` beside the file. It is complete after every run. Shards are in `TABLE.shards`.
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Keep the result files of every run, in DIR/0001 and so on, whichever shard makes it. With --merge: see whether all are there.
+    /// Keep the result files of every run in DIR/0001 and so on. With --merge: check that all exist.
     #[arg(long, value_name = "DIR")]
     results: Option<PathBuf>,
-    /// Keep the factors of bodies in DIR too, and take from there what was factored before; see `run --cache`.
+    /// Keep factorisations of bodies in DIR and reuse them; see `run --cache`.
     #[arg(long, value_name = "DIR")]
     cache: Option<PathBuf>,
     #[command(flatten)]
     engine: EngineArguments,
-    /// Threads; all processors if not given. Results do not depend on it.
+    /// Number of threads; default: all processors. Results do not depend on it.
     #[arg(long, value_name = "N")]
     threads: Option<usize>,
-    /// Go on with a sweep that was stopped or killed: runs that are in the table are not run again. Shards always do.
+    /// Continue an interrupted sweep: finished runs are not repeated. Shards always continue.
     #[arg(long)]
     resume: bool,
-    /// Make only part I of N, for one of N processes on one machine or many.
+    /// Run only part I of N, for N processes on one or more machines.
     #[arg(long, value_name = "I/N")]
     shard: Option<String>,
-    /// Make the table of shards from their folders, or from the folder that they are in.
+    /// Merge shards into one table: their folders, or the folder that contains them.
     #[arg(
         long,
         value_name = "DIR",

@@ -24,7 +24,7 @@ pub use perturbed::PerturbedLagrangian;
 pub use rule::{Enforcement, Multipliers, Stiffness, pressure};
 
 crate::family! {
-    /// How contact and stick are enforced.
+    /// How the contact and sticking constraints are enforced.
     EnforcementModel: "enforcement", dyn Enforcement {
         /// Springs.
         Penalty(Penalty) = "penalty",

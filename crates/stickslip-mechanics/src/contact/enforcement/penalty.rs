@@ -4,7 +4,7 @@ use super::rule::{Enforcement, Multipliers, Stiffness};
 use crate::contact::law::normal::positive;
 use crate::registry::Samples;
 
-/// Springs against penetration and stick. What they give is reported; nothing removes it.
+/// Springs against penetration and slip of sticking points. Their penetration is reported and not corrected.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]

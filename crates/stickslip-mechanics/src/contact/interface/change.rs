@@ -4,16 +4,16 @@ use super::definition::InterfaceDefinition;
 use crate::contact::law::friction::FrictionModel;
 use crate::contact::law::normal::NormalModel;
 
-/// `change.INTERFACE` of a step: laws that hold from this step on. What is not given stays. Points keep their pressure, status and the shear that they
-/// carry; the new laws are asked from the first increment on.
+/// Laws of an interface from this step on. Laws that are not given stay. Points keep their pressure, status and shear traction; the new laws apply from
+/// the first increment on.
 #[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub struct Change {
-    /// How the surfaces resist being pressed together.
+    /// The normal law: pressure as a function of the gap.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub normal: Option<NormalModel>,
-    /// How much shear the interface carries.
+    /// The friction law: the largest shear traction of the interface.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub friction: Option<FrictionModel>,
 }

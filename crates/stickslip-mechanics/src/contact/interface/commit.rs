@@ -390,7 +390,7 @@ pub(super) fn sheared(interface: ContactView, shear: Vec3, stiffness: f64) -> f6
 /// Energy per area that friction has dissipated over an increment, by how much that may be off, and by how much it exceeds the trapezoidal rule in
 /// motion.
 ///
-/// In motion by the trapezoidal rule, like the work of the loads. A quasi-static increment may be as long as one likes, and shear may turn
+/// In motion by the trapezoidal rule, like the work of the loads. A quasi-static increment may have any length, and shear may turn
 /// round in it, or rise to the limit and stay there. Then the point slides along its shear traction all the time that it slides,
 /// at the limit: `∫ limit |ds|`. The limit is taken as growing in proportion to the way, from its value at the start where the
 /// point slid already, and from half-way where it stuck, as it is not known when it began to slide.

@@ -4,20 +4,20 @@ use serde::{Deserialize, Serialize};
 
 use super::history::Origin;
 
-/// What becomes of gaps and overlaps that the meshes have when an interface begins to act.
+/// Treatment of initial gaps and overlaps of the meshes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Start {
-    /// They count as they are.
+    /// Gaps and overlaps are used as meshed.
     #[default]
     AsMeshed,
-    /// Points of the secondary within the tolerance are moved onto the primary before anything is computed: another mesh, without strain.
+    /// Points of the secondary within the tolerance are moved onto the primary before the analysis, without strain.
     Snap,
-    /// The gap counts from its initial value where that is within the tolerance, or where the surfaces overlap: contact that is closed
-    /// from the start, whatever the meshes say, or open by `initial-gap`.
+    /// Gaps are measured from their initial value, where that is within the tolerance or negative: contact is closed at the start, or open by
+    /// `initial-gap`.
     Offset,
-    /// Overlap is resolved in proportion to time over the first step in which the interface acts: a shrink fit.
+    /// Overlap is resolved linearly over the first step in which the interface acts (shrink fit).
     Ramp,
 }
 

@@ -22,7 +22,7 @@ pub struct Laws {
     pub friction: FrictionModel,
     /// Stick and slip.
     pub slip: SlipModel,
-    /// How contact and stick are enforced.
+    /// How the contact and sticking constraints are enforced.
     pub enforcement: EnforcementModel,
     /// The surfaces are glued: neither gap nor slip changes, and the laws have no meaning.
     pub tied: bool,

@@ -64,58 +64,51 @@ pub fn refused(text: &str) -> Vec<String> {
     found.collect()
 }
 
-/// Phrases that are refused in comments, messages and pages, and what to write instead.
-const PHRASES: &[(&str, &str)] = &[
-    ("another shear than", "differs from the friction limit"),
-    ("forces shake", "harmonic forces"),
-    ("all of their stiffness", "full stiffness"),
-    ("energy ledger", "energy balance"),
-    ("enter each other", "penetrate"),
-    ("equal bits", "bitwise reproducible"),
-    (
-        "equations of motion are left",
-        "residual of the equations of motion",
-    ),
-    ("kept from entering", "may not penetrate"),
-    ("ledger of energies", "energy balance"),
-    (
-        "list the wrong things",
-        "wrong boundary conditions are active",
-    ),
-    ("neither theory nor", "outside the valid range"),
-    ("not given has a default", "all other keys are optional"),
-    ("out of nothing", "spurious"),
-    ("said of velocities", "stated in terms of velocity"),
-    ("stop at once makes", "impact nodes"),
-    ("told not to", "does not"),
-    ("until contact holds them", "until contact is established"),
-    ("who factors", "linear solver"),
-    ("without strain until", "rigid-body motion"),
-    ("give or take", "±"),
-    ("has the word", "decides"),
-    ("have the word", "decide"),
-    ("in vain", "without progress"),
-    ("know nothing", "do not include"),
-    ("knows nothing", "does not include"),
-    ("loose bod", "unconstrained bodies"),
-    ("matter goes by", "material moves past"),
-    ("nobody ", "no process, or is not known"),
-    ("nothing holds", "unconstrained"),
-    ("stand still in steady", "base excitation"),
-    ("stand-in", "approximation"),
-    ("to and fro", "back and forth"),
-    ("what happens is told", "messages go to"),
+/// Where the table of the style guide begins and ends in CONTRIBUTING.md.
+const TABLE: [&str; 2] = [
+    "<!-- refused phrases -->",
+    "<!-- end of refused phrases -->",
 ];
 
+/// A phrase that is refused in comments, messages and pages, and what to write instead.
+pub struct Phrase<'a> {
+    refused: &'a str,
+    instead: &'a str,
+}
+
+/// The text of the style guide before, in and after its table of refused phrases.
+fn parts(guide: &str) -> [&str; 3] {
+    let [begin, end] = TABLE;
+    let (before, rest) = guide.split_once(begin).expect("the table of phrases");
+    let (table, after) = rest.split_once(end).expect("the end of the table");
+    [before, table, after]
+}
+
+/// The refused phrases: the rows of the table in the style guide.
+pub fn phrases(guide: &str) -> Vec<Phrase<'_>> {
+    let [_, table, _] = parts(guide);
+    let rows = table.lines().filter_map(|row| row.strip_prefix("| `"));
+    let phrases = rows.filter_map(|row| {
+        let (refused, instead) = row.split_once("` | ")?;
+        let instead = instead.trim_end_matches([' ', '|']);
+        Some(Phrase { refused, instead })
+    });
+    phrases.collect()
+}
+
+/// The style guide without its table.
+pub fn without_table(guide: &str) -> String {
+    let [before, _, after] = parts(guide);
+    format!("{before}{after}")
+}
+
 /// The refused phrases of a text: `LINE: PHRASE: INSTEAD`.
-pub fn refused_phrases(text: &str) -> Vec<String> {
+pub fn refused_phrases(text: &str, phrases: &[Phrase]) -> Vec<String> {
     let lines = text.lines().enumerate();
     let found = lines.flat_map(|(line, text)| {
         let text = text.to_lowercase();
-        let here = PHRASES
-            .iter()
-            .filter(move |(phrase, _)| text.contains(phrase));
-        here.map(move |(phrase, instead)| format!("{}: `{phrase}`: {instead}", line + 1))
+        let here = phrases.iter().filter(move |p| text.contains(p.refused));
+        here.map(move |p| format!("{}: `{}`: {}", line + 1, p.refused, p.instead))
     });
     found.collect()
 }

@@ -11,7 +11,7 @@ pub use undamped::Undamped;
 pub use viscous::Viscous;
 
 crate::family! {
-    /// What resists surfaces while they approach or part.
+    /// Contact damping: pressure as a function of the closing velocity.
     DampingModel: "damping", dyn NormalDamping {
         /// No damping.
         Undamped(Undamped) = "none",

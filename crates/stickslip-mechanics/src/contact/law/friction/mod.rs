@@ -19,7 +19,7 @@ pub use stribeck::Stribeck;
 pub use tabular::Tabular;
 
 crate::family! {
-    /// How much shear the interface carries.
+    /// The friction law: the largest shear traction of the interface.
     FrictionModel: "friction", dyn FrictionLaw {
         /// No friction.
         Frictionless(Frictionless) = "none",

@@ -18,7 +18,7 @@ pub use tabular::Tabular;
 pub use unilateral::Unilateral;
 
 crate::family! {
-    /// How the interface resists being pressed together.
+    /// The normal law: pressure as a function of the gap.
     NormalModel: "normal", dyn NormalLaw {
         /// Exact non-penetration.
         Unilateral(Unilateral) = "unilateral",

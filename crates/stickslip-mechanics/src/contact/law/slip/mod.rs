@@ -9,7 +9,7 @@ pub use return_mapping::ReturnMapping;
 pub use rule::{SlipRule, SlipState, Tangential};
 
 crate::family! {
-    /// How stick and slip change hands.
+    /// The slip rule: shear traction as a function of relative motion.
     SlipModel: "slip", dyn SlipRule {
         /// Stick until the limit.
         ReturnMapping(ReturnMapping) = "return-mapping",

@@ -81,7 +81,7 @@ pub(super) fn check(
         return Vec::new();
     };
     let dim = interface.dofs.dim;
-    // The places that are nearest to each other: elsewhere meshes may differ as they like.
+    // The places that are nearest to each other: elsewhere meshes may differ.
     let mut near: Vec<(f64, f64)> = Vec::new();
     for ((point, &gap), beside) in interface
         .points

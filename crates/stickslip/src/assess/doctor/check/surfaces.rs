@@ -110,7 +110,7 @@ fn held(model: &Model, interface: &InterfaceDefinition, surface: &Surface) -> Op
         return Some(
             finding
                 .blame_all(node.map(|p| places::node(model, p, "")))
-                .advise("support the body where it is held in truth, away from the contact, or make it `rigid = true`"),
+                .advise("support the body where it is really held, away from the contact, or make it `rigid = true`"),
         );
     }
     None
@@ -146,7 +146,7 @@ fn stiffened(scene: &Scene, interface: &InterfaceDefinition, surface: &Surface) 
             ))
             .blame(Suspect::key(format!("coupling.{}", coupling.name), format!("{count} of {} points of the surface", on.len())))
             .blame(Suspect::interface(name, format!("its {}", surface.side)))
-            .advise("let the reference point lead the face where the body is held in truth, away from the contact, or make the body `rigid = true`"),
+            .advise("let the reference point lead the face where the body is really held, away from the contact, or make the body `rigid = true`"),
         );
     }
     None

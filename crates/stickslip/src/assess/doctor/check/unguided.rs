@@ -71,7 +71,7 @@ pub(super) fn check(view: &View, interface: &InterfaceDefinition) -> Option<Find
                 figure(1.0 / curvature), height = figure(height)))
             .blame(body(model, &owner.name, "held beside its contact by nothing"))
             .blame(Suspect::interface(name, "the only thing that holds it"))
-            .advise("support its motion along the contact where it is guided in truth: `[support.NAME]` of the points that are loaded, across the load"),
+            .advise("support its motion along the contact where it is really guided: `[support.NAME]` of the points that are loaded, across the load"),
         );
     }
     None
