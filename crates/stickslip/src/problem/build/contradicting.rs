@@ -4,11 +4,11 @@ use std::collections::BTreeMap;
 
 use super::fault::problem_error;
 use crate::error::{Diagnostic, Error};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, geometry};
 use crate::model::definition::{Step, Support};
 use crate::number::digits;
 use crate::system::Dofs;
-use crate::tolerance::SAME;
+use crate::tolerance::{ROUNDING, SAME};
 
 /// Refuses supports that prescribe different displacements of one point at the end of a step. In between, supports start from where they find the points.
 pub(super) fn refuse(
@@ -17,6 +17,7 @@ pub(super) fn refuse(
     mesh: &Mesh,
     dofs: Dofs,
 ) -> Result<(), Error> {
+    let rounding = ROUNDING * geometry::diameter(mesh);
     for t in steps.iter().map(|step| step.end) {
         let mut first: BTreeMap<usize, (&Support, f64)> = BTreeMap::new();
         for support in supports.iter().filter(|s| s.schedule.active(t)) {
@@ -24,7 +25,8 @@ pub(super) fn refuse(
             for entry in support.entries.iter().filter(|e| !e.hold) {
                 let value = factor * entry.value;
                 let &mut (other, was) = first.entry(entry.dof).or_insert((support, value));
-                if (value - was).abs() <= SAME * value.abs().max(was.abs()) {
+                // What the supports of rigid bodies prescribe of their hidden points is rounded.
+                if (value - was).abs() <= SAME * value.abs().max(was.abs()) + rounding {
                     continue;
                 }
                 let (point, component) = dofs.locate(entry.dof);
