@@ -3,7 +3,7 @@
 //! There are two ways to own. A *lock* of the system ends with the process that has it, at once and on whatever machine it was; folders of results are owned
 //! so, and where a file system knows no locks, what the file says of the owner counts. A *lease* needs only what holds on network file systems of all kinds:
 //! a file is created by one of those who try at once, and a rename is seen as a whole. Who holds a lease writes another number into it every `BEAT`;
-//! who waits and has seen none for `PATIENCE`, by a clock of its own, takes the holder for dead. On the same machine it asks the system instead.
+//! who waits and has seen none for `LONGEST_SILENCE`, by a clock of its own, takes the holder for dead. On the same machine it asks the system instead.
 //! Leases spare work, and keep messages apart; what is written is whole without them: where two do the same after all, both are right, and the file
 //! is that of the one who was last.
 
@@ -19,7 +19,7 @@ use std::time::{Duration, Instant, SystemTime};
 const BEAT: Duration = Duration::from_secs(2);
 
 /// How long nothing may be heard of it.
-const PATIENCE: Duration = Duration::from_secs(60);
+const LONGEST_SILENCE: Duration = Duration::from_secs(60);
 
 /// What a name ends with under which something is written, or put out of the way.
 const ASIDE: &str = "tmp";
@@ -264,7 +264,7 @@ impl Waiting {
             return true;
         }
         match &self.last {
-            Some((last, since)) if last == text => now.duration_since(*since) > PATIENCE,
+            Some((last, since)) if last == text => now.duration_since(*since) > LONGEST_SILENCE,
             _ => {
                 self.last = Some((text.to_vec(), now));
                 false
@@ -538,13 +538,13 @@ mod tests {
         let mut waiting = Waiting::default();
         let now = Instant::now();
         assert!(!waiting.is_over(away, now));
-        assert!(!waiting.is_over(away, now + PATIENCE / 2));
+        assert!(!waiting.is_over(away, now + LONGEST_SILENCE / 2));
         // It beats.
         let beat = b"1 far-away 5 elsewhere/7 token 000000000001\n";
-        let later = now + PATIENCE + BEAT;
+        let later = now + LONGEST_SILENCE + BEAT;
         assert!(!waiting.is_over(beat, later));
-        assert!(!waiting.is_over(beat, later + PATIENCE));
-        assert!(waiting.is_over(beat, later + PATIENCE + BEAT));
+        assert!(!waiting.is_over(beat, later + LONGEST_SILENCE));
+        assert!(waiting.is_over(beat, later + LONGEST_SILENCE + BEAT));
         // What is no lease of ours is one of somebody who may be writing it.
         assert!(!Waiting::default().is_over(b"", now));
     }

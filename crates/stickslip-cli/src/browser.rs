@@ -5,7 +5,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 /// How long a program is watched that shall open a page: one that cannot says so at once, one that can may go on as long as the page is open.
-const PATIENCE: Duration = Duration::from_millis(1500);
+const WATCHED: Duration = Duration::from_millis(1500);
 
 /// Opens a page; `false` where nothing here can.
 pub fn open(page: &Path) -> bool {
@@ -57,7 +57,7 @@ fn opens(program: &[String], page: &Path) -> bool {
         match child.try_wait() {
             // Explorer ends with 1 whatever it does.
             Ok(Some(status)) => return status.success() || cfg!(windows),
-            Ok(None) if begun.elapsed() < PATIENCE => {
+            Ok(None) if begun.elapsed() < WATCHED => {
                 std::thread::sleep(Duration::from_millis(20));
             }
             Ok(None) => return true,

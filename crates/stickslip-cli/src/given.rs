@@ -281,9 +281,9 @@ fn meant(path: &Path, names: &[String]) -> String {
 
 /// Names in a list, the first few of many.
 fn some(names: &[String]) -> String {
-    const MOST: usize = 5;
-    let shown = names[..names.len().min(MOST)].join(", ");
-    match names.len() > MOST {
+    const NAMES_IN_A_LIST: usize = 5;
+    let shown = names[..names.len().min(NAMES_IN_A_LIST)].join(", ");
+    match names.len() > NAMES_IN_A_LIST {
         true => format!("{shown}, …"),
         false => shown,
     }

@@ -16,8 +16,8 @@ use crate::voice::ProgressPrinter;
 pub use crate::voice::say;
 
 /// Lines of increments that a file or a pipe gets before they become fewer, and how far apart they are from then on.
-const FIRST: usize = 40;
-const APART: Duration = Duration::from_secs(10);
+const FIRST_LINES: usize = 40;
+const LINE_INTERVAL: Duration = Duration::from_secs(10);
 
 /// What the columns of the line of an increment are.
 const HEAD: [&str; 9] = [
@@ -69,8 +69,8 @@ impl Progress {
 
     /// Whether the next increment has a line.
     fn due(&mut self) -> bool {
-        let few = self.terminal || self.verbose || self.lines < FIRST;
-        let due = few || self.last.elapsed() >= APART;
+        let few = self.terminal || self.verbose || self.lines < FIRST_LINES;
+        let due = few || self.last.elapsed() >= LINE_INTERVAL;
         if due {
             self.lines += 1;
             self.last = Instant::now();
@@ -104,8 +104,8 @@ impl Progress {
             let text = internals(analysis, row);
             self.line(&text);
         }
-        if self.lines == FIRST && !self.terminal && !self.verbose {
-            let apart = APART.as_secs();
+        if self.lines == FIRST_LINES && !self.terminal && !self.verbose {
+            let apart = LINE_INTERVAL.as_secs();
             self.line(&format!(
                 "  from here on a line every {apart} s; all increments are in history.csv"
             ));

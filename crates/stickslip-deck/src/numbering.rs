@@ -9,10 +9,10 @@ use std::collections::BTreeMap;
 use crate::text::squeeze;
 
 /// Numbers from here on are those of no range: what a deck names and cannot have.
-const BEYOND: u64 = 1 << 62;
+const FIRST_OUTSIDE: u64 = 1 << 62;
 
 /// Room for the numbers of an instance that it cannot have.
-const APART: u64 = 1 << 32;
+const RANGE_SIZE: u64 = 1 << 32;
 
 /// How numbers of instances become numbers of the deck.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -33,7 +33,7 @@ impl Numbering {
         let mut stride = 0;
         if count > 0 {
             stride = 10;
-            while stride <= most.min(APART) {
+            while stride <= most.min(RANGE_SIZE) {
                 stride *= 10;
             }
         }
@@ -75,7 +75,7 @@ impl Numbering {
         match self.stride == 0 || n < self.stride {
             true => range * self.stride + n,
             // Behind the end of the range the next instance begins, which is not meant.
-            false => BEYOND + range * APART + n.min(APART - 1),
+            false => FIRST_OUTSIDE + range * RANGE_SIZE + n.min(RANGE_SIZE - 1),
         }
     }
 
@@ -94,8 +94,8 @@ impl Numbering {
         if self.stride == 0 {
             return (None, n);
         }
-        let (range, own) = match n.checked_sub(BEYOND) {
-            Some(rest) => (rest / APART, rest % APART),
+        let (range, own) = match n.checked_sub(FIRST_OUTSIDE) {
+            Some(rest) => (rest / RANGE_SIZE, rest % RANGE_SIZE),
             None => (n / self.stride, n % self.stride),
         };
         (self.names.get(range as usize).map(String::as_str), own)

@@ -27,7 +27,7 @@ pub struct Source {
 const INCLUDE_DEPTH: usize = 16;
 
 /// Most files of one deck, with repetitions.
-const MOST_FILES: usize = 1000;
+const MOST_FILES_OF_A_DECK: usize = 1000;
 
 struct Line {
     text: String,
@@ -40,7 +40,8 @@ impl Source {
     /// # Errors
     /// Files that cannot be read, that include each other in a circle, and lines that belong to no keyword.
     pub fn read(path: &Path, parameters_of: ParametersOf) -> Result<Source, DeckError> {
-        let bytes = input::read(path, input::TEXT).map_err(|e| DeckError::io(path, &e, None))?;
+        let bytes =
+            input::read(path, input::MOST_TEXT_BYTES).map_err(|e| DeckError::io(path, &e, None))?;
         Source::parse(&bytes, path, parameters_of)
     }
 
@@ -163,10 +164,13 @@ impl Source {
             // Both programs look from the folder of the job.
             inner = beside(&open[0]);
         }
-        if open.contains(&inner) || open.len() >= INCLUDE_DEPTH || self.files.len() >= MOST_FILES {
+        if open.contains(&inner)
+            || open.len() >= INCLUDE_DEPTH
+            || self.files.len() >= MOST_FILES_OF_A_DECK
+        {
             return Err(self.error(
                 line.place,
-                format!("the files include each other in a circle, are {INCLUDE_DEPTH} deep, or more than {MOST_FILES}: {name}"),
+                format!("the files include each other in a circle, are {INCLUDE_DEPTH} deep, or more than {MOST_FILES_OF_A_DECK}: {name}"),
                 "each *INCLUDE must name a file that does not lead back here",
             ));
         }
@@ -179,7 +183,7 @@ impl Source {
                 "*INCLUDE names an ordinary file",
             ));
         }
-        let bytes = input::read(&inner, input::TEXT)
+        let bytes = input::read(&inner, input::MOST_TEXT_BYTES)
             .map_err(|e| DeckError::io(&inner, &e, Some((&here, line.place.line))))?;
         open.push(inner.clone());
         self.join(&bytes, &inner, open, lines)?;

@@ -26,7 +26,7 @@ use super::results::no_interface;
 use stickslip::number::digits;
 
 /// How often Python is asked whether a signal has come.
-const PATIENCE: Duration = Duration::from_millis(50);
+const SIGNAL_INTERVAL: Duration = Duration::from_millis(50);
 
 /// A number of the state, by degree of freedom.
 #[derive(Clone, Copy, PartialEq)]
@@ -147,7 +147,7 @@ impl Simulation {
             let Ok(mut asked) = asked.lock() else {
                 return false;
             };
-            if asked.elapsed() < PATIENCE {
+            if asked.elapsed() < SIGNAL_INTERVAL {
                 return false;
             }
             *asked = Instant::now();

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use stickslip::io::vtu::{PointArray, PointFields};
 
 /// The arrays of a shape: its real part, and the imaginary one if it has one.
-pub const PARTS: [&str; 2] = ["PHI", "PHI_IMAGINARY"];
+pub const SHAPE_ARRAYS: [&str; 2] = ["PHI", "PHI_IMAGINARY"];
 
 /// A shape at a phase.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,7 +19,7 @@ pub struct Phase {
 impl Phase {
     /// Puts the displacements at the phase in place of the shape: `Re(φ e^{iα})`, the largest of a cycle about one.
     pub fn place(&self, points: &mut PointFields) {
-        let parts = PARTS.map(|name| points.arrays.remove(name));
+        let parts = SHAPE_ARRAYS.map(|name| points.arrays.remove(name));
         let count = 3 * points.points.len();
         let whole = |part: &&PointArray| part.components == 3 && part.values.len() == count;
         let [real, imaginary] = [0, 1].map(|k| parts[k].as_ref().filter(whole));

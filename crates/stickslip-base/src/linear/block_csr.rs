@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::Digest;
 use super::pattern::{Couplings, Pattern};
 
-/// Block rows multiplied by one task; fixed, so that results never depend on the number of threads.
+/// Block rows that one task multiplies or makes; fixed, so that results never depend on the number of threads.
 pub(super) const ROWS_PER_TASK: usize = 1024;
 
 /// A sparse matrix of `block × block` blocks over the points of a mesh, in compressed rows.

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 pub type Couplings<'a> = dyn FnMut(&mut dyn FnMut(&[usize])) + 'a;
 
 /// Rows handled by one task; fixed, so that results never depend on the number of threads.
-const ROWS_PER_TASK: usize = 4096;
+const PATTERN_ROWS_PER_TASK: usize = 4096;
 
 /// The coupling graph of points with sorted rows; every point is coupled to itself.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -40,16 +40,16 @@ impl Pattern {
         });
         let (of_point_starts, of_point) = invert(points, &groups);
 
-        let tasks: Vec<usize> = (0..points).step_by(ROWS_PER_TASK).collect();
+        let tasks: Vec<usize> = (0..points).step_by(PATTERN_ROWS_PER_TASK).collect();
         // Each task returns the lengths of its rows and their columns.
         let rows: Vec<(Vec<usize>, Vec<u32>)> = tasks
             .into_par_iter()
             .map_init(
                 || vec![u32::MAX; points],
                 |seen, first| {
-                    let mut lengths = Vec::with_capacity(ROWS_PER_TASK);
+                    let mut lengths = Vec::with_capacity(PATTERN_ROWS_PER_TASK);
                     let mut columns = Vec::new();
-                    for row in first..(first + ROWS_PER_TASK).min(points) {
+                    for row in first..(first + PATTERN_ROWS_PER_TASK).min(points) {
                         let start = columns.len();
                         seen[row] = row as u32;
                         columns.push(row as u32);

@@ -13,7 +13,7 @@ use crate::deck::Element;
 use crate::text;
 
 /// Numbers of nodes that elements have.
-const NODES: [usize; 10] = [1, 2, 3, 4, 5, 6, 8, 10, 15, 20];
+const NODE_COUNTS: [usize; 10] = [1, 2, 3, 4, 5, 6, 8, 10, 15, 20];
 
 /// Nodes of element types that are not cells.
 fn other_nodes(kind: &str) -> Option<usize> {
@@ -167,7 +167,7 @@ pub(super) fn elements(reader: &mut Reader, card: &Card) {
             members(reader, more, 0..more.fields.len(), &mut nodes);
         }
         // CalculiX reads as many numbers as the type has nodes. As many as another type has say that the type is another.
-        if nodes.len() > count && !NODES.contains(&nodes.len()) {
+        if nodes.len() > count && !NODE_COUNTS.contains(&nodes.len()) {
             if !forgiven {
                 let message = format!(
                     "{kind} has {count} nodes: further numbers in the lines of its elements are left out"

@@ -11,8 +11,8 @@ use crate::card::{Card, Data, Place};
 use crate::motion::Motion;
 use crate::text::{self, clip};
 
-/// Most nodes that one line makes: a short deck must not ask for more than there is memory.
-const MOST: u64 = 10_000_000;
+/// Most nodes or elements that one line makes: a short deck must not ask for more than there is memory.
+pub(super) const MOST_OF_A_LINE: u64 = 10_000_000;
 
 /// A curve from one node to another, by the fraction of the way.
 enum Curve {
@@ -133,7 +133,7 @@ pub(super) fn generate_nodes(reader: &mut Reader, card: &Card) {
             },
         };
         let span = first.abs_diff(last);
-        if span == 0 || !span.is_multiple_of(by) || span / by > MOST {
+        if span == 0 || !span.is_multiple_of(by) || span / by > MOST_OF_A_LINE {
             let message =
                 format!("the numbers from {first} to {last} do not divide into steps of {by}");
             let help =
@@ -276,7 +276,7 @@ pub(super) fn fill_nodes(reader: &mut Reader, card: &Card) {
             let help = "let both sets have as many nodes";
             reader.messages.warn(data.place, message, help);
         }
-        if count * lines as u64 > MOST || (two && !count.is_multiple_of(2)) {
+        if count * lines as u64 > MOST_OF_A_LINE || (two && !count.is_multiple_of(2)) {
             let message = format!("*NFILL: {count} intervals cannot be made");
             let help =
                 "their number is even with TWO STEP, and nodes are not more than ten million";

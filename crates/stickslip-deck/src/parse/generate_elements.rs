@@ -2,6 +2,7 @@
 
 use super::elements;
 use super::fields::{number, own_number, required, required_name, whole};
+use super::generate::MOST_OF_A_LINE;
 use super::known::absent;
 use super::messages::Messages;
 use super::reader::Reader;
@@ -9,9 +10,6 @@ use super::sets::add;
 use crate::card::{Card, Data, Place};
 use crate::deck::Element;
 use crate::text::{self, clip};
-
-/// Most elements that one line makes.
-const MOST: u64 = 10_000_000;
 
 /// By how much the numbers that a card makes can be larger than those before it.
 pub(super) fn farther(card: &Card) -> u64 {
@@ -130,11 +128,13 @@ pub(super) fn generate_elements(reader: &mut Reader, card: &Card) {
             continue;
         };
         let count = row.0.saturating_mul(rows.0).saturating_mul(layers.0);
-        if count > MOST {
+        if count > MOST_OF_A_LINE {
             let message = format!("*ELGEN asks for {count} elements");
-            reader
-                .messages
-                .error(data.place, message, &format!("a line makes up to {MOST}"));
+            reader.messages.error(
+                data.place,
+                message,
+                &format!("a line makes up to {MOST_OF_A_LINE}"),
+            );
             continue;
         }
         for k in 0..count {

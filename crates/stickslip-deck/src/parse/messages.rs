@@ -9,7 +9,7 @@ use crate::card::{Card, Place};
 use crate::finding::{Finding, Severity};
 
 /// After so many errors no more are looked for: something else is wrong than single lines.
-const ENOUGH: usize = 50;
+const MOST_ERRORS: usize = 50;
 
 /// What has been said of a deck.
 #[derive(Debug, Default)]
@@ -54,7 +54,7 @@ impl<'a> Messages<'a> {
     }
 
     pub(super) fn error(&mut self, place: Place, message: impl Into<String>, help: &str) {
-        if self.errors.len() < ENOUGH {
+        if self.errors.len() < MOST_ERRORS {
             let finding = self.finding(Severity::Error, place, message.into(), help);
             if !self.said(&finding, &self.errors) {
                 self.errors.push(finding);

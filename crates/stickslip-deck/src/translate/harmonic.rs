@@ -16,7 +16,7 @@ use super::part::Part;
 use crate::deck::{Action, Deck, FieldsOf, Print, Procedure, Step};
 
 /// Displacements of more nodes than this are written as fields, not as columns of a table.
-const COLUMNS: usize = 200;
+const MOST_NODES_IN_COLUMNS: usize = 200;
 
 /// Says what steps cannot do, and writes the probes at which the answer is told.
 pub(super) fn write(job: &mut Job, bodies: &Bodies) {
@@ -111,7 +111,7 @@ fn nodes(deck: &Deck, bodies: &Bodies) -> BTreeMap<u64, String> {
         .copied()
         .filter(|n| bodies.of_node.contains_key(n))
         .collect();
-    if all.len() > COLUMNS {
+    if all.len() > MOST_NODES_IN_COLUMNS {
         return BTreeMap::new();
     }
     let named = |n: u64| (n, problem_name(&format!("node-{}", deck.label(n))));

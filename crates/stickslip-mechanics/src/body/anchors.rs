@@ -82,7 +82,7 @@ const EASY_EVALUATIONS: usize = 7;
 const HARD_EVALUATIONS: usize = 14;
 
 /// Rounds from which the place of the anchors is extrapolated.
-const MEMORY: usize = 6;
+const REMEMBERED_ROUNDS: usize = 6;
 
 /// Force in the anchors of a body, relative to that on it, which is no more than the solver leaves out of balance elsewhere. It is the
 /// default of `solver.tolerance`.
@@ -230,7 +230,7 @@ impl Anchors {
             let blur = blur.fold(0.0, f64::max);
             mix(&self.past, &at, &now, blur, &mut next);
         }
-        if self.past.len() == MEMORY {
+        if self.past.len() == REMEMBERED_ROUNDS {
             self.past.remove(0);
         }
         self.past.push([at, now]);

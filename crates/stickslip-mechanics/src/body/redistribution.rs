@@ -12,7 +12,7 @@
 use crate::math::{Vec3, symmetric_eigen};
 
 /// Layers of cells that take mass.
-const LAYERS: usize = 8;
+const MASS_LAYERS: usize = 8;
 
 /// Mass matrices of the cells of a body, one direction, and their points.
 pub(super) struct Cell {
@@ -47,7 +47,7 @@ pub(super) fn factors(cells: &[Cell], x: &[Vec3], light: &[bool], dim: usize) ->
 fn weights(cells: &[Cell], light: &[bool]) -> Vec<f64> {
     let mut reached = light.to_vec();
     let mut weights = vec![0.0; cells.len()];
-    for layer in 0..LAYERS {
+    for layer in 0..MASS_LAYERS {
         let mut next = reached.clone();
         for (cell, weight) in cells.iter().zip(&mut weights) {
             if *weight == 0.0 && cell.points.iter().any(|&p| reached[p]) {

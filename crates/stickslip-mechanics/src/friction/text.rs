@@ -86,7 +86,7 @@ impl<'a> Lines<'a> {
 const FORM: &str = "the lines are `dim D contacts N`, `mu` and N values, `q` with D N lines of one value, `W ENTRIES` with lines of row, column (from 0) and value";
 
 /// More points than memory has room for a dense operator.
-const MOST_POINTS: usize = 20_000;
+const MOST_DENSE_POINTS: usize = 20_000;
 
 fn fault(line: usize, message: String) -> TextFault {
     TextFault {
@@ -177,11 +177,11 @@ fn head(lines: &mut Lines) -> Result<(usize, usize), TextFault> {
             format!("the dimension is 2 or 3, not {dimension}"),
         ));
     }
-    if points > MOST_POINTS {
+    if points > MOST_DENSE_POINTS {
         return Err(TextFault {
             line,
             message: format!(
-                "{points} points are more than the {MOST_POINTS} that are solved with a dense operator"
+                "{points} points are more than the {MOST_DENSE_POINTS} that are solved with a dense operator"
             ),
             help: "split the problem where no force passes".into(),
         });

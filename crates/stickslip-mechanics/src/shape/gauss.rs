@@ -7,7 +7,7 @@ const ONE: [(f64, f64); 1] = [(0.0, 2.0)];
 /// Points and weights of the 2-point rule, exact for cubics.
 const TWO: [(f64, f64); 2] = [(-ROOT_THIRD, 1.0), (ROOT_THIRD, 1.0)];
 /// Points and weights of the 3-point rule, exact for quintics.
-const THREE: [(f64, f64); 3] = [
+const LINE_OF_THREE: [(f64, f64); 3] = [
     (-ROOT_THREE_FIFTHS, 5.0 / 9.0),
     (0.0, 8.0 / 9.0),
     (ROOT_THREE_FIFTHS, 5.0 / 9.0),
@@ -47,11 +47,11 @@ const fn product<const N: usize>(line: &[(f64, f64)], dim: usize) -> [Quadrature
 }
 
 pub(super) static LINE_2: [QuadraturePoint; 2] = product(&TWO, 1);
-pub(super) static LINE_3: [QuadraturePoint; 3] = product(&THREE, 1);
+pub(super) static LINE_3: [QuadraturePoint; 3] = product(&LINE_OF_THREE, 1);
 pub(super) static QUAD_2X2: [QuadraturePoint; 4] = product(&TWO, 2);
-pub(super) static QUAD_3X3: [QuadraturePoint; 9] = product(&THREE, 2);
+pub(super) static QUAD_3X3: [QuadraturePoint; 9] = product(&LINE_OF_THREE, 2);
 pub(super) static HEX_2X2X2: [QuadraturePoint; 8] = product(&TWO, 3);
-pub(super) static HEX_3X3X3: [QuadraturePoint; 27] = product(&THREE, 3);
+pub(super) static HEX_3X3X3: [QuadraturePoint; 27] = product(&LINE_OF_THREE, 3);
 pub(super) static QUAD_1: [QuadraturePoint; 1] = product(&ONE, 2);
 pub(super) static HEX_1: [QuadraturePoint; 1] = product(&ONE, 3);
 
@@ -87,7 +87,7 @@ const fn prism<const N: usize>(
 
 pub(super) static WEDGE_1X2: [QuadraturePoint; 2] = prism(&CENTRE, &TWO);
 pub(super) static WEDGE_3X2: [QuadraturePoint; 6] = prism(&INSIDE, &TWO);
-pub(super) static WEDGE_3X3: [QuadraturePoint; 9] = prism(&INSIDE, &THREE);
+pub(super) static WEDGE_3X3: [QuadraturePoint; 9] = prism(&INSIDE, &LINE_OF_THREE);
 
 /// A rule on the wedge of the degree that [`collapsed`] has on the triangle, and quintic along it.
 pub(super) fn fine_wedge() -> Vec<QuadraturePoint> {
@@ -98,7 +98,7 @@ pub(super) fn fine_wedge() -> Vec<QuadraturePoint> {
             weight: p.weight * w,
         })
     };
-    THREE.into_iter().flat_map(along).collect()
+    LINE_OF_THREE.into_iter().flat_map(along).collect()
 }
 
 /// A rule on the unit simplex: 4 points a direction on the cube, collapsed onto a corner. On a triangle exact to degree six, on a

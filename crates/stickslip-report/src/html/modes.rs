@@ -9,7 +9,7 @@ use stickslip::modal::grows;
 use stickslip::number::figure;
 
 use crate::pack;
-use crate::phase::PARTS;
+use crate::phase::SHAPE_ARRAYS;
 use crate::results::{Results, fault};
 use crate::shapes::{self, Shape};
 use crate::skin::Skin;
@@ -110,7 +110,7 @@ fn fastest(shapes: &[Shape], room: usize) -> Vec<usize> {
 /// How many parts a shape has, and its displacements at the points of the skin, part by part, the largest of them one.
 fn packed(file: &Path, skin: &Skin) -> Result<(usize, Vec<f32>), Error> {
     let read = vtu::read(file)?;
-    let parts: Vec<&[f64]> = PARTS
+    let parts: Vec<&[f64]> = SHAPE_ARRAYS
         .iter()
         .filter_map(|name| read.arrays.get(*name))
         .filter(|array| array.components == 3)

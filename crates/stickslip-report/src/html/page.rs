@@ -9,7 +9,7 @@ use crate::results::Results;
 const STYLE: &str = include_str!("../../assets/page.css");
 const PLOT_STYLE: &str = include_str!("../../assets/vendor/uPlot.min.css");
 const PLOT: &str = include_str!("../../assets/vendor/uPlot.iife.min.js");
-const THREE: &str = include_str!("../../assets/vendor/three.bundle.min.js");
+const THREE_JS: &str = include_str!("../../assets/vendor/three.bundle.min.js");
 const DATA: &str = include_str!("../../assets/data.js");
 const PLOTS: &str = include_str!("../../assets/plots.js");
 const VIEW: &str = include_str!("../../assets/view.js");
@@ -108,7 +108,7 @@ pub fn write(
     }
     if !model.meta.is_null() {
         // Most of a small page: packed, and only where there is something to show.
-        let text = crate::pack::packed(THREE.as_bytes());
+        let text = crate::pack::packed(THREE_JS.as_bytes());
         page += &format!("<script type=\"text/plain\" id=\"blob-three\">{text}</script>\n");
     }
     for script in [PLOT, DATA, PLOTS, VIEW] {
@@ -135,7 +135,7 @@ mod tests {
 
     #[test]
     fn scripts_that_are_built_in_cannot_end_their_element() {
-        for script in [PLOT, THREE, DATA, PLOTS, VIEW] {
+        for script in [PLOT, THREE_JS, DATA, PLOTS, VIEW] {
             let lower = script.to_ascii_lowercase();
             assert!(!lower.contains("</script") && !lower.contains("<!--"));
         }

@@ -31,10 +31,10 @@ pub struct Contact {
 }
 
 /// Parts of the model: the largest distance between the sides of a contact.
-const BESIDE: f64 = 0.05;
+const LARGEST_SEPARATION: f64 = 0.05;
 
 /// Points of a contact by which the body opposite is found.
-const SAMPLES: usize = 64;
+const SAMPLED_POINTS: usize = 64;
 
 /// What touches where the field has values. `moved`: the points of the skin as they are drawn.
 pub fn contacts(
@@ -119,7 +119,7 @@ fn opposite(
     points: &[Vec3],
 ) -> Option<usize> {
     let mut sums = vec![0.0; skin.ends.len()];
-    let step = points.len().div_ceil(SAMPLES).max(1);
+    let step = points.len().div_ceil(SAMPLED_POINTS).max(1);
     let samples = points.iter().step_by(step);
     for x in samples.clone() {
         let mut nearest = vec![f64::INFINITY; sums.len()];
@@ -134,7 +134,7 @@ fn opposite(
     let others = (0..sums.len()).filter(|&b| b != own);
     let best = others.min_by(|&a, &b| sums[a].total_cmp(&sums[b]))?;
     let mean = sums[best] / samples.count().max(1) as f64;
-    (mean <= BESIDE * skin.size()).then_some(best)
+    (mean <= LARGEST_SEPARATION * skin.size()).then_some(best)
 }
 
 /// The mean normal of a contact, and whether its points agree on it; of what closes around a pin the direction along the pin.

@@ -45,7 +45,7 @@ pub struct Known<'a> {
 const DISTANCES: [f64; 8] = [0.0, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0, 1.4];
 
 /// The part of the faces that is enough, and the part below which one side alone may be better.
-const ENOUGH: [f64; 2] = [0.95, 0.6];
+const ENOUGH_IN_VIEW: [f64; 2] = [0.95, 0.6];
 
 /// Chooses bodies and view. A field that only surfaces of contact carry is hidden between the bodies in 3D: these are drawn apart, or, where the patch that touches is small, one side
 /// of the contact alone, from where it looks.
@@ -69,7 +69,7 @@ pub fn choose(known: &Known, wanted: &Picture) -> Result<Shown, String> {
     if apart.is_some() || wanted.apart != Apart::Auto {
         spread(known, wanted, apart.as_ref(), &mut shown);
     }
-    if shown.in_view.is_some_and(|part| part >= ENOUGH[1]) || wanted.apart != Apart::Auto {
+    if shown.in_view.is_some_and(|part| part >= ENOUGH_IN_VIEW[1]) || wanted.apart != Apart::Auto {
         return Ok(shown);
     }
     let mut alone = named(known, wanted)?;
@@ -150,7 +150,7 @@ fn spread(known: &Known, wanted: &Picture, row: Option<&Row>, shown: &mut Shown)
             if part > best.0 + 0.02 {
                 best = (part, distance, view);
             }
-            if part >= ENOUGH[0] {
+            if part >= ENOUGH_IN_VIEW[0] {
                 break 'found;
             }
         }

@@ -6,7 +6,7 @@ use crate::field;
 use crate::skin::Skin;
 
 /// The part of the area at each end of the values that colours may leave out.
-const BEYOND: f64 = 0.01;
+const LEFT_OUT_AREA: f64 = 0.01;
 
 /// How much of what is drawn each point stands for: area of triangles, or in a plane length of the rim where only the rim has values. Zero where nothing is drawn.
 pub fn weights(skin: &Skin, values: &[f64], bodies: &[bool]) -> Vec<f64> {
@@ -48,7 +48,7 @@ pub fn robust(mut values: Vec<[f64; 2]>, zero: bool) -> Option<[f64; 2]> {
         });
         found.map(|v| v[0])
     };
-    let (Some(low), Some(high)) = (quantile(BEYOND), quantile(1.0 - BEYOND)) else {
+    let (Some(low), Some(high)) = (quantile(LEFT_OUT_AREA), quantile(1.0 - LEFT_OUT_AREA)) else {
         return Some(all);
     };
     let width = if zero {

@@ -13,7 +13,7 @@ pub type Box2 = [[f64; 2]; 2];
 pub const NOTHING: Box2 = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
 
 /// Parts of the model by which sides of an interface may be drawn apart along their normal, and across.
-const APART: [f64; 2] = [0.001, 0.02];
+const DRAWN_APART: [f64; 2] = [0.001, 0.02];
 
 /// Takes a point, seen by the camera, into a box.
 pub fn include(bounds: &mut Box2, seen: [f64; 3]) {
@@ -150,7 +150,7 @@ pub fn scale<'a>(size: f64, largest: f64, sheets: impl Iterator<Item = &'a Sheet
         let here = sheet.motion();
         motion = [0, 1].map(|c| motion[c].max(here[c]));
     }
-    let most = [0, 1].map(|c| 1.0 + APART[c] * size / motion[c].max(f64::MIN_POSITIVE));
+    let most = [0, 1].map(|c| 1.0 + DRAWN_APART[c] * size / motion[c].max(f64::MIN_POSITIVE));
     let most = most[0].min(most[1]);
     let wanted = factor(size, largest);
     if wanted <= most {

@@ -16,7 +16,7 @@ const FIRST_ANGLE: f64 = PI / 30.0;
 pub const LAST_ANGLE: f64 = PI / 9000.0;
 
 /// How many planes are looked around at most.
-const STARTS: usize = 6;
+const MOST_PLANES: usize = 6;
 
 /// Which planes there are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -178,7 +178,7 @@ pub fn worst(
         .take_while(|w| w.value >= top - 0.05 * (top - low))
     {
         let near = |s: &Worst| dot(s.normal, one.normal).abs() > (2.5 * FIRST_ANGLE).cos();
-        if starts.len() < STARTS && !starts.iter().any(near) {
+        if starts.len() < MOST_PLANES && !starts.iter().any(near) {
             starts.push(one);
         }
     }

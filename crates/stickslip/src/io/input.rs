@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::machine;
 
 /// Most bytes of a text that somebody writes by hand or a program writes for it: a problem file, a deck, an expectation.
-pub const TEXT: u64 = 1 << 30;
+pub const MOST_TEXT_BYTES: u64 = 1 << 30;
 
 /// The part of the memory that is free which one file may take: what is made of it needs room as well.
 const PART: u64 = 4;
@@ -61,7 +61,7 @@ pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>> {
 /// # Errors
 /// Those of [`read`]; that it is not UTF-8.
 pub fn read_text(path: &Path) -> Result<String> {
-    let bytes = read(path, TEXT)?;
+    let bytes = read(path, MOST_TEXT_BYTES)?;
     String::from_utf8(bytes).map_err(|_| Error::new(ErrorKind::InvalidData, "it is not UTF-8 text"))
 }
 
@@ -110,7 +110,7 @@ mod tests {
         if !made.is_ok_and(|status| status.success()) {
             return;
         }
-        let why = read(&path, TEXT).unwrap_err().to_string();
+        let why = read(&path, MOST_TEXT_BYTES).unwrap_err().to_string();
         assert_eq!(why, "it is a pipe or a socket, not a file");
         std::fs::remove_file(path).unwrap();
     }

@@ -119,7 +119,8 @@ pub struct Part {
 /// # Errors
 /// As [`read()`].
 pub fn read_parts(path: &Path) -> Result<Vec<Part>, Error> {
-    let bytes = super::input::read(path, super::input::TEXT).map_err(|e| Error::io(path, e))?;
+    let bytes =
+        super::input::read(path, super::input::MOST_TEXT_BYTES).map_err(|e| Error::io(path, e))?;
     parse(&bytes).map_err(|message| {
         Error::Io(IoError {
             file: path.to_path_buf(),

@@ -10,7 +10,7 @@ use crate::model::frame::Frame;
 use crate::tolerance::ROUNDING;
 
 /// Most rows of the dense matrix of friction.
-const MOST_ROWS: usize = 8000;
+const MOST_FRICTION_ROWS: usize = 8000;
 
 /// Columns that are solved for together.
 const SOLVED_TOGETHER: usize = 32;
@@ -178,11 +178,11 @@ impl Root {
             }));
         }
         let q = pairs.len();
-        if q > MOST_ROWS {
+        if q > MOST_FRICTION_ROWS {
             let mut error = fault(
                 frame,
                 format!(
-                    "{q} rows of friction are too many for the dense matrix of sliding points (at most {MOST_ROWS})"
+                    "{q} rows of friction are too many for the dense matrix of sliding points (at most {MOST_FRICTION_ROWS})"
                 ),
             );
             error.help = Some("mesh the sliding surface more coarsely".into());

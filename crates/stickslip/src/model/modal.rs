@@ -174,7 +174,7 @@ impl MapOver {
 }
 
 /// So many factors of a map are tried before it is made, at most.
-const MOST_FACTORS: usize = 15;
+const MOST_TRIED_FACTORS: usize = 15;
 
 /// A map over a factor of something.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -190,7 +190,7 @@ pub struct MapPlan {
 impl MapPlan {
     /// The factors at which the space of a map has to be good: some over all of its range.
     pub(crate) fn tried(&self) -> Vec<f64> {
-        let few = self.points.clamp(2, MOST_FACTORS);
+        let few = self.points.clamp(2, MOST_TRIED_FACTORS);
         MapPlan {
             points: few,
             ..*self

@@ -37,7 +37,7 @@ impl Document {
         if file.is_dir() {
             return Err(foreign::folder(file));
         }
-        let bytes = input::read(file, input::TEXT).map_err(|e| Error::io(file, e))?;
+        let bytes = input::read(file, input::MOST_TEXT_BYTES).map_err(|e| Error::io(file, e))?;
         if let Some(finding) = foreign::kind(file, &bytes) {
             return Err(Error::Problem(ProblemError {
                 file: Some(file.to_path_buf()),

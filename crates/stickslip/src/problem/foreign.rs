@@ -94,7 +94,7 @@ pub(super) fn kind(file: &Path, bytes: &[u8]) -> Option<Diagnostic> {
 }
 
 /// Most files of a folder that are listed.
-const MOST_FILES: usize = 5;
+const LISTED_FILES: usize = 5;
 
 /// A folder where a problem file is wanted: what in it may be meant.
 pub(super) fn folder(folder: &Path) -> Error {
@@ -110,8 +110,8 @@ pub(super) fn folder(folder: &Path) -> Error {
         .filter(|name| name.ends_with(".toml") || name.ends_with(".inp"))
         .collect();
     files.sort();
-    let more = files.len() > MOST_FILES;
-    files.truncate(MOST_FILES);
+    let more = files.len() > LISTED_FILES;
+    files.truncate(LISTED_FILES);
     let what = match files.is_empty() {
         true => "there is no problem file in it".to_string(),
         false => format!(

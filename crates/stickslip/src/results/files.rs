@@ -19,7 +19,7 @@ use crate::assess::doctor;
 use crate::assess::view::View;
 use crate::contact::look::Sheet;
 use crate::error::Error;
-use crate::io::frd::{END, end_again};
+use crate::io::frd::{END_LINE, end_again};
 use crate::io::{csv, own, pvd, vtu, write_atomically};
 use crate::system::{Field, Fields, Location, Motion};
 
@@ -122,7 +122,7 @@ impl ResultFiles {
             if let Ok(file) = std::fs::File::open(&path) {
                 // Its last line is written over by what comes next, and is not there where a full disk has taken that.
                 let last = match name == self.frd.name() {
-                    true => END.len() as u64,
+                    true => END_LINE.len() as u64,
                     false => 0,
                 };
                 let come = || -> std::io::Result<Come> {

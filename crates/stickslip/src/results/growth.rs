@@ -10,10 +10,10 @@ use crate::model::kick::Growth;
 const HARMONICS: f64 = 10.0;
 
 /// Most rows of a spectrum.
-const MOST_ROWS: usize = 2000;
+const MOST_SPECTRUM_ROWS: usize = 2000;
 
 /// Fewest and most cycles of each spectrum of a waterfall, and most of these.
-const CYCLES: [f64; 2] = [6.0, 40.0];
+const CYCLES_A_SPECTRUM: [f64; 2] = [6.0, 40.0];
 const SPANS: usize = 60;
 
 /// Columns of the history over the rows of a step.
@@ -180,7 +180,7 @@ pub(super) fn spectrum(history: &Table, growth: &Growth) -> Option<Table> {
     if span <= 0.0 || growth.frequency <= 0.0 {
         return None;
     }
-    let frequencies = lines(growth.frequency, span, MOST_ROWS);
+    let frequencies = lines(growth.frequency, span, MOST_SPECTRUM_ROWS);
     let found = amplitudes(&rows, [first, rows.time.len() - 1], &frequencies);
     Some(Table {
         names: vec!["frequency".into(), "amplitude".into()],
@@ -195,13 +195,13 @@ pub(super) fn waterfall(history: &Table, growth: &Growth) -> Option<Table> {
     let rows = Rows::of(history, growth)?.thinned(1.0 / (64.0 * frequency));
     let end = *rows.time.last()?;
     // Half of each is in the next.
-    let fit = (2.0 * end * frequency / CYCLES[0]).floor();
+    let fit = (2.0 * end * frequency / CYCLES_A_SPECTRUM[0]).floor();
     if fit < 3.0 {
         return None;
     }
     let count = (fit as usize - 1).min(SPANS);
-    let span = (2.0 * end / (count + 1) as f64).min(CYCLES[1] / frequency);
-    let frequencies = lines(frequency, span, MOST_ROWS);
+    let span = (2.0 * end / (count + 1) as f64).min(CYCLES_A_SPECTRUM[1] / frequency);
+    let frequencies = lines(frequency, span, MOST_SPECTRUM_ROWS);
     let mut columns = vec![Vec::new(); 3];
     for k in 0..count {
         let from = (end - span) * k as f64 / (count - 1) as f64;

@@ -77,7 +77,7 @@ impl Measured {
                 message,
             })
         };
-        let bytes = input::read(&file, input::TEXT).map_err(|e| Error::io(&file, e))?;
+        let bytes = input::read(&file, input::MOST_TEXT_BYTES).map_err(|e| Error::io(&file, e))?;
         let spacing = self.spacing.as_ref().map(|s| {
             let first = s.first().copied().unwrap_or(1.0);
             [first, s.get(1).copied().unwrap_or(first)]

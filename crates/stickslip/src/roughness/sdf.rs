@@ -3,7 +3,7 @@
 use super::map::HeightMap;
 
 /// How such files begin: as text, and in binary.
-const TEXT: [&[u8]; 2] = [b"aISO-1.0", b"aBCR-1.0"];
+const SDF_BEGINNINGS: [&[u8]; 2] = [b"aISO-1.0", b"aBCR-1.0"];
 const BINARY: [&[u8]; 2] = [b"bISO-1.0", b"bBCR-1.0"];
 
 /// Bytes of a binary header.
@@ -51,7 +51,7 @@ pub(super) fn read(bytes: &[u8]) -> Option<Result<HeightMap, String>> {
     if BINARY.iter().any(|begin| bytes.starts_with(begin)) {
         return Some(binary(bytes));
     }
-    let begins = TEXT.iter().any(|begin| bytes.starts_with(begin));
+    let begins = SDF_BEGINNINGS.iter().any(|begin| bytes.starts_with(begin));
     begins.then(|| text(&String::from_utf8_lossy(bytes)))
 }
 

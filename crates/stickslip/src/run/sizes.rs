@@ -22,14 +22,14 @@ const NUMBER: usize = 25;
 const BLOCKS: usize = 200;
 
 /// Characters of the line of a file of fields in `fields.pvd`, and bytes of its name in a checkpoint.
-const LINE: usize = 80;
+const FIELDS_LINE_BYTES: usize = 80;
 
 /// Bytes of a point in the `.frd` file at most: seven blocks with 28 numbers.
 const FRD_TEXT: usize = 7 * 14 + 28 * 12;
 const FRD_BINARY: usize = 7 * 4 + 28 * 4;
 
 /// Bytes of a checkpoint beside vectors and histories: the problem, digests, counts, what judges remember, a few hundred cut-backs.
-const BESIDE: usize = 40_000;
+const CHECKPOINT_REST: usize = 40_000;
 
 /// What a run writes. Numbers of increments are those of steps in which none is cut back; sizes are upper bounds, up to five times what comes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
@@ -56,7 +56,8 @@ pub struct Sizes {
 impl Sizes {
     /// All of it `[bytes]`.
     pub fn total(&self) -> u64 {
-        let fields = (self.outputs).saturating_mul(self.fields + self.frd + LINE as u64);
+        let fields =
+            (self.outputs).saturating_mul(self.fields + self.frd + FIELDS_LINE_BYTES as u64);
         let checkpoints = 2 * self.checkpoint.max(self.last_checkpoint);
         let rows = self.rows.saturating_mul(self.row);
         checkpoints.saturating_add(fields).saturating_add(rows)
@@ -108,7 +109,7 @@ pub(super) fn sizes(run: &Run) -> Sizes {
     let row = history::row(&view, &run.judges.around, nothing, Default::default(), 0, 0);
     sizes.row = (NUMBER * row.values.len()) as u64;
     let (checkpoint, waiting) = checkpoint_sizes(run);
-    let names = sizes.outputs.saturating_mul(LINE as u64);
+    let names = sizes.outputs.saturating_mul(FIELDS_LINE_BYTES as u64);
     sizes.checkpoint = names.saturating_add(checkpoint as u64);
     sizes.last_checkpoint = sizes.checkpoint.saturating_add(waiting as u64);
     sizes
@@ -176,5 +177,5 @@ fn checkpoint_sizes(run: &Run) -> (usize, usize) {
         false => 0,
     };
     let grown = vectors * vector + 3 * histories + factored;
-    (now + grown + BESIDE, waiting)
+    (now + grown + CHECKPOINT_REST, waiting)
 }

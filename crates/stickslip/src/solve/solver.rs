@@ -51,7 +51,7 @@ pub(crate) struct Solver {
 }
 
 /// The key of factors of bodies that turn cell by cell: of numbers that no increment leaves to the next.
-const CELLS: u64 = u64::MAX;
+const TURNING_FACTOR_KEY: u64 = u64::MAX;
 
 /// What the solver has to say.
 #[derive(Debug, Default)]
@@ -165,7 +165,7 @@ impl Solver {
         };
         if let (Some(bodies), None) = (self.bodies.nonlinear(), &origin) {
             let pressed = Pressed::new(model, bodies, at.t, &task.from.u);
-            let linearised = self.factors.of(CELLS);
+            let linearised = self.factors.of(TURNING_FACTOR_KEY);
             return Iteration {
                 newton: &mut self.newton,
                 seen: &mut self.seen,

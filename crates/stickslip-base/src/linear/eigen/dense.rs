@@ -5,7 +5,7 @@ use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{Accum, Mat, Par, Side, c64};
 
 /// Entries of long vectors that are multiplied at once, so that they stay in the cache.
-const ROWS: usize = 512;
+const ENTRIES_AT_ONCE: usize = 512;
 
 /// Real and imaginary part.
 pub type Complex = [f64; 2];
@@ -99,7 +99,9 @@ fn part(vectors: &[Vec<f64>], rows: std::ops::Range<usize>) -> Mat<f64> {
 
 /// Parts of the length `n`.
 fn parts(n: usize) -> impl Iterator<Item = std::ops::Range<usize>> {
-    (0..n).step_by(ROWS).map(move |k| k..n.min(k + ROWS))
+    (0..n)
+        .step_by(ENTRIES_AT_ONCE)
+        .map(move |k| k..n.min(k + ENTRIES_AT_ONCE))
 }
 
 /// The scalar products of long vectors with others, `XᵀY` row by row.
@@ -227,7 +229,7 @@ mod tests {
 
     #[test]
     fn long_vectors_are_multiplied_as_one_by_one() {
-        let n = 2 * super::ROWS + 3;
+        let n = 2 * super::ENTRIES_AT_ONCE + 3;
         let mut seed = 11;
         let mut some = |count: usize| -> Vec<Vec<f64>> {
             let mut one = |_| {

@@ -14,7 +14,7 @@ use super::tree::FrontTree;
 use crate::keep::{Keep, Kept};
 
 /// Names the format and its version.
-const MAGIC: &[u8; 8] = b"mfllt\0\0\x01";
+const FORMAT_NAME_AND_VERSION: &[u8; 8] = b"mfllt\0\0\x01";
 
 /// Numbers converted at a time.
 const CONVERTED_AT_A_TIME: usize = 8192;
@@ -25,7 +25,7 @@ const CONVERTED_AT_A_TIME: usize = 8192;
 /// Those of `out`.
 pub fn write_factor(factor: &PartialFactor, out: &mut dyn Write) -> io::Result<()> {
     let fronts = &*factor.fronts;
-    let mut head = MAGIC.to_vec();
+    let mut head = FORMAT_NAME_AND_VERSION.to_vec();
     let header = Header {
         shape: fronts.shape,
         points: (fronts.points.start, fronts.points.end),
@@ -68,7 +68,7 @@ pub fn write_factor(factor: &PartialFactor, out: &mut dyn Write) -> io::Result<(
 pub fn read_factor(input: &mut dyn Read) -> io::Result<PartialFactor> {
     let mut magic = [0; 8];
     input.read_exact(&mut magic)?;
-    if &magic != MAGIC {
+    if &magic != FORMAT_NAME_AND_VERSION {
         return Err(invalid("not a factor"));
     }
     let Header {

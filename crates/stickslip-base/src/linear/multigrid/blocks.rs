@@ -3,9 +3,7 @@
 use rayon::prelude::*;
 
 use super::super::BlockCsr;
-
-/// Rows handled by one task; fixed, so that results never depend on the number of threads.
-pub(super) const ROWS_PER_TASK: usize = 1024;
+use super::super::block_csr::ROWS_PER_TASK;
 
 /// A dense block, row by row.
 pub(super) type Block<T, const R: usize, const C: usize> = [[T; C]; R];

@@ -1,9 +1,7 @@
 use super::super::BlockCsr;
+use super::super::block_csr::ROWS_PER_TASK;
 use super::super::pattern::Pattern;
 use rayon::prelude::*;
-
-/// Rows handled by one task; fixed, so that results never depend on the number of threads.
-const ROWS_PER_TASK: usize = 1024;
 
 /// The change of variables `u = T x` that makes contact local: at secondary points the displacement is replaced by the
 /// gap vector `g = u_s - Σ N_m u_m` to the facet they meet; all other points keep theirs.

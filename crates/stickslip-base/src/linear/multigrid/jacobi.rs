@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::blocks::{Block, ROWS_PER_TASK, Rows, zero};
+use super::super::block_csr::ROWS_PER_TASK;
+use super::blocks::{Block, Rows, zero};
 use super::spectrum;
 
 /// Steps of the Lanczos method for the spectral radius.

@@ -2,7 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::blocks::{Block, Blocks, Columns, ROWS_PER_TASK, Rows, convert, zero};
+use super::super::block_csr::ROWS_PER_TASK;
+use super::blocks::{Block, Blocks, Columns, Rows, convert, zero};
 use super::jacobi::{BlockJacobi, active, invert};
 use super::prolong::Nodes;
 

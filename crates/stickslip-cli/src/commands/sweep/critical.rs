@@ -10,7 +10,7 @@ use super::table::line;
 use crate::failure::Failure;
 
 /// Most runs for one critical value.
-const MOST_RUNS: usize = 40;
+const MOST_CRITICAL_RUNS: usize = 40;
 
 /// A change of sign between two runs.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,7 +54,7 @@ pub fn narrow(
     let mut weights = [1.0, 1.0];
     // A critical value is known to this width, relative to the step of the axis.
     let width = NEGLIGIBLE * (b[0] - a[0]).abs();
-    for k in 0..MOST_RUNS {
+    for k in 0..MOST_CRITICAL_RUNS {
         if (b[0] - a[0]).abs() <= width {
             break;
         }

@@ -5,7 +5,7 @@ use crate::math::symmetric_eigen;
 use crate::math::vector::dot;
 
 /// Most products with the stiffness.
-const MOST_PRODUCTS: usize = 60;
+const MOST_LANCZOS_STEPS: usize = 60;
 
 /// Least number of them, so that a few cells much stiffer than the others have shown themselves.
 const LEAST_PRODUCTS: usize = 20;
@@ -68,7 +68,7 @@ pub fn largest_eigenvalue(internal: &mut InternalForce, mass: &[f64], fixed: &[b
         let settled = steps >= LEAST_PRODUCTS && residual <= 0.01 * value;
         // The vectors span all that the start has a part in.
         let exhausted = beta <= 1e-12 * value;
-        if settled || exhausted || steps == MOST_PRODUCTS || beta.is_nan() {
+        if settled || exhausted || steps == MOST_LANCZOS_STEPS || beta.is_nan() {
             return value + residual;
         }
         beside.push(beta);

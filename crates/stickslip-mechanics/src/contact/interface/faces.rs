@@ -6,7 +6,7 @@ use super::cache::{Geometry, MergedNodes};
 use super::definition::{InterfaceDefinition, Primary};
 use super::input::InterfaceInput;
 use super::scene::Wants;
-use super::search::FaceSearch;
+use super::search::{FACES_PER_TASK, FaceSearch};
 use crate::contact::kinematics::of_points;
 use crate::contact::mortar::{
     FACE_NODES, FaceIntegral, Merged, Scratch, Sides, correct, integrate, merged,
@@ -14,9 +14,6 @@ use crate::contact::mortar::{
 use crate::contact::symmetry::Across;
 use crate::math::{Mat3, Vec3, identity};
 use crate::system::Stage;
-
-/// Faces integrated by one task.
-const FACES_PER_TASK: usize = 8;
 
 /// Integrates over all faces at the coordinates of the evaluation, along normals that have turned as the surface has, at the last accepted state where it
 /// `holds_turns`; at that state where [`holds_integrals`] says so; over the reference configuration, once, where sliding is small.

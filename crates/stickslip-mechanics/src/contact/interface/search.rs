@@ -30,8 +30,8 @@ pub(in crate::contact) struct FaceSearch {
     at: Vec<Vec3>,
 }
 
-/// Faces looked at by one task.
-const FACES: usize = 8;
+/// Faces looked at or integrated by one task.
+pub(super) const FACES_PER_TASK: usize = 8;
 
 impl Search {
     /// Whether the points have moved so far that a nearer facet might be missing from the candidates.
@@ -103,8 +103,8 @@ impl FaceSearch {
         }
         let tree = Tree::build(facets.iter().map(|f| f.nodes.iter().map(|&n| x[n])));
         self.opposite.resize(faces.len(), Vec::new());
-        (faces.par_chunks(FACES))
-            .zip(self.opposite.par_chunks_mut(FACES))
+        (faces.par_chunks(FACES_PER_TASK))
+            .zip(self.opposite.par_chunks_mut(FACES_PER_TASK))
             .for_each(|(faces, opposite)| {
                 for (face, opposite) in faces.iter().zip(opposite) {
                     let weight = 1.0 / face.nodes.len() as f64;

@@ -45,18 +45,18 @@ pub(super) struct MovingFrame<'a> {
 }
 
 /// Most products of rows in the derivative of a row.
-const MOST_PRODUCTS: usize = 9;
+const PRODUCTS_OF_A_ROW: usize = 9;
 
 /// A sum of products of rows, which is added in one pass over the matrix.
 struct Products {
-    left: [Row; MOST_PRODUCTS],
-    right: [Row; MOST_PRODUCTS],
+    left: [Row; PRODUCTS_OF_A_ROW],
+    right: [Row; PRODUCTS_OF_A_ROW],
     count: usize,
 }
 
 impl Default for Products {
     fn default() -> Self {
-        let none = [[0.0; MOST_DOFS]; MOST_PRODUCTS];
+        let none = [[0.0; MOST_DOFS]; PRODUCTS_OF_A_ROW];
         Products {
             left: none,
             right: none,
@@ -75,7 +75,7 @@ impl Products {
     /// `out += Σ left rightᵀ`, of `n` rows.
     fn add_to(&self, out: &mut [f64], n: usize) {
         for (i, row) in out.chunks_exact_mut(n).enumerate() {
-            let left: [f64; MOST_PRODUCTS] = std::array::from_fn(|k| self.left[k][i]);
+            let left: [f64; PRODUCTS_OF_A_ROW] = std::array::from_fn(|k| self.left[k][i]);
             for (j, out) in row.iter_mut().enumerate() {
                 *out += (left.iter().zip(&self.right)).fold(0.0, |s, (l, right)| s + l * right[j]);
             }

@@ -9,7 +9,7 @@ use crate::contact::interface::view::ContactView;
 use crate::math::distance;
 
 /// Parts of the way at which it is: by no whole number of teeth from one to the next, whatever the number of teeth that it is long.
-const PARTS: [f64; 4] = [0.236, 0.382, 0.618, 0.854];
+const PLACES_ON_THE_WAY: [f64; 4] = [0.236, 0.382, 0.618, 0.854];
 
 /// By how much more than at either end its sides overlap on the straight way between two displacements by dof and times `[m]`; `None` where they do not, and where they go too
 /// short a way to miss anything.
@@ -42,11 +42,13 @@ pub fn tunnels(
     }
     let least = |x: &[_], t: f64| lowest(contact, x, t).into_iter().fold(0.0, f64::min);
     let at_ends = least(&ends[0], before).min(least(&ends[1], after));
-    let deepest = PARTS.into_iter().fold(at_ends, |deepest: f64, part| {
-        let mean = |a: f64, b: f64| a + part * (b - a);
-        let u: Vec<f64> = from.iter().zip(to).map(|(&a, &b)| mean(a, b)).collect();
-        deepest.min(least(&contact.coordinates(&u), mean(before, after)))
-    });
+    let deepest = PLACES_ON_THE_WAY
+        .into_iter()
+        .fold(at_ends, |deepest: f64, part| {
+            let mean = |a: f64, b: f64| a + part * (b - a);
+            let u: Vec<f64> = from.iter().zip(to).map(|(&a, &b)| mean(a, b)).collect();
+            deepest.min(least(&contact.coordinates(&u), mean(before, after)))
+        });
     let deeper = at_ends - deepest;
     // An overlap on the way of less than a facet is none: what is straight in one frame is not in another.
     (deeper > size).then_some(deeper)

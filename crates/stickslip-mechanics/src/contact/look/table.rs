@@ -20,7 +20,7 @@ struct Row {
 type Column = (&'static str, fn(&Row) -> f64);
 
 /// Columns before those that are shown as fields too.
-const FIRST: [Column; 4] = [
+const FIRST_COLUMNS: [Column; 4] = [
     ("node", |r| r.node),
     ("x", |r| r.x[0]),
     ("y", |r| r.x[1]),
@@ -51,7 +51,7 @@ pub fn table(contact: ContactView, u: &[f64]) -> (Vec<String>, Vec<Vec<f64>>) {
         let values: Vec<f64> = rows.iter().map(|r| value(&r.values)).collect();
         (name.to_string(), values)
     });
-    let first = FIRST.into_iter().map(column);
+    let first = FIRST_COLUMNS.into_iter().map(column);
     first
         .chain(means)
         .chain(LAST.into_iter().map(column))

@@ -1,7 +1,7 @@
 //! A cell that is a line: what it has in common with others is an interval.
 
 use super::clip::Point;
-use super::rules::LINE;
+use super::rules::LINE_RULE;
 use super::view::View;
 use super::window::{Window, frame};
 use crate::math::{Vec3, dot, sub};
@@ -44,7 +44,7 @@ impl Window for Interval {
 
     fn places(&self, &[low, high]: &[f64; 2], _: ElementKind, sample: &mut dyn FnMut(Point, f64)) {
         let way = self.ends[1] - self.ends[0];
-        for (point, weight) in LINE {
+        for (point, weight) in LINE_RULE {
             let t = low + 0.5 * (1.0 + point) * (high - low);
             let w = 0.5 * weight * (high - low) * way.abs();
             sample([self.ends[0] + t * way, 0.0], w);

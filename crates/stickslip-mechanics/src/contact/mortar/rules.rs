@@ -8,7 +8,7 @@ use crate::shape::{ElementKind, mass_rule};
 pub type Rule = [([f64; 3], f64)];
 
 /// Exact for quadratics.
-const THREE: [([f64; 3], f64); 3] = [
+const TRIANGLE_OF_THREE: [([f64; 3], f64); 3] = [
     ([2.0 / 3.0, 1.0 / 6.0, 1.0 / 6.0], 1.0 / 3.0),
     ([1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0], 1.0 / 3.0),
     ([1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0], 1.0 / 3.0),
@@ -44,7 +44,7 @@ static SIXTEEN: LazyLock<Vec<([f64; 3], f64)>> = LazyLock::new(|| {
 /// The rule for a triangle on faces of these kinds.
 pub fn triangle(secondary: ElementKind, primary: ElementKind) -> &'static Rule {
     if secondary == ElementKind::Tri3 && primary == ElementKind::Tri3 {
-        &THREE
+        &TRIANGLE_OF_THREE
     } else if secondary.order() == 1 && primary.order() == 1 {
         &*SEVEN
     } else {
@@ -53,7 +53,7 @@ pub fn triangle(secondary: ElementKind, primary: ElementKind) -> &'static Rule {
 }
 
 /// Three points on `[-1, 1]` and their weights, which add up to two.
-pub const LINE: [(f64, f64); 3] = [
+pub const LINE_RULE: [(f64, f64); 3] = [
     (-0.774_596_669_241_483_4, 5.0 / 9.0),
     (0.0, 8.0 / 9.0),
     (0.774_596_669_241_483_4, 5.0 / 9.0),
@@ -67,7 +67,7 @@ mod tests {
     fn rules_are_exact_to_their_degree() {
         // ∫ L1^a L2^b = 2A a! b! / (a + b + 2)!
         let factorial = |n: usize| (1..=n).product::<usize>() as f64;
-        for (rule, degree) in [(&THREE[..], 2), (&*SEVEN, 5), (&SIXTEEN, 6)] {
+        for (rule, degree) in [(&TRIANGLE_OF_THREE[..], 2), (&*SEVEN, 5), (&SIXTEEN, 6)] {
             for a in 0..=degree {
                 for b in 0..=(degree - a) {
                     let exact = 2.0 * factorial(a) * factorial(b) / factorial(a + b + 2);

@@ -12,7 +12,7 @@ use crate::math::{Vec3, add_scaled, cross, dot, normalize, scale, sub};
 pub type Place = [i32; 2];
 
 /// Parts into which the distance to the next place is divided where an area is summed up.
-const PARTS: usize = 4;
+const PARTS_OF_AREA: usize = 4;
 
 /// What the surface is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -224,8 +224,8 @@ impl Chart {
             };
         }
         let extent = |r: f64| extent[0] + extent[1] * r.max(0.0);
-        let parts = PARTS as f64;
-        let mean: f64 = (0..2 * PARTS)
+        let parts = PARTS_OF_AREA as f64;
+        let mean: f64 = (0..2 * PARTS_OF_AREA)
             .map(|k| (k as f64 + 0.5) / parts - 1.0)
             .map(|t| (1.0 - t.abs()) / parts * extent(self.position(row, f64::from(at) + t)[0]))
             .sum();

@@ -14,7 +14,7 @@ use crate::math::{Vec3, add, add_scaled, cross, dot, norm, normalize, sub};
 use crate::shape::ElementKind;
 
 /// Samples of a face along the distance of two places, in the plane and in space.
-const SAMPLES: [f64; 2] = [4.0, 2.0];
+const SAMPLES_A_PLACE: [f64; 2] = [4.0, 2.0];
 
 /// Where the depth of such a primary is kept, and what of it lies beneath each point.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,7 +89,7 @@ impl TrackSampling<'_> {
     /// Samples by point, about so many to a distance.
     fn samples(&self, apart: f64, extent: &impl Fn(Vec3) -> f64) -> Vec<Vec<Sample>> {
         let mut out = vec![Vec::new(); self.points.len()];
-        let per = SAMPLES[usize::from(self.dim == 3)];
+        let per = SAMPLES_A_PLACE[usize::from(self.dim == 3)];
         for skin in self.skin {
             self.sample_face(skin, per / apart, extent, &mut out);
         }

@@ -1,6 +1,6 @@
 use super::condensation::Condensation;
 use super::preconditioner::SMALL;
-use super::reduced_system::{ReducedSystem, TINY};
+use super::reduced_system::{ReducedSystem, SMALL_SYSTEM};
 use crate::newton::bulk::Bulk;
 use crate::newton::describe;
 use crate::newton::settings::Settings;
@@ -101,7 +101,7 @@ impl Bulk for CondensedBulk<'_> {
 
     /// Two products with the compliance a Krylov step in place of one; where the factor is made every time there are next to none.
     fn prefers_straight(&self, contact: &Assembler) -> bool {
-        3 * contact.blocks.len() > TINY
+        3 * contact.blocks.len() > SMALL_SYSTEM
     }
 
     /// A solution is a product with a dense matrix.
@@ -140,7 +140,7 @@ impl Bulk for CondensedBulk<'_> {
         // More digits than these cost more than another iteration, unless next to nothing is solved.
         let asked = settings.linear_tolerance;
         let finest = match 3 * contact.blocks.len() {
-            0..=TINY => 1e-13,
+            0..=SMALL_SYSTEM => 1e-13,
             SMALL.. => asked,
             // Where more rows are than need a factor in single precision it is what was asked for: with two digits while points change
             // status a slab that is pressed on a plane came to no rest, each point slipping another way from iteration to iteration.

@@ -312,7 +312,7 @@ impl Planned {
     /// Whether it is not worth a file.
     fn is_tiny(&self) -> bool {
         let ordered = self.ordered();
-        ordered.root().len() <= file::TINY && ordered.interior().is_empty()
+        ordered.root().len() <= file::SMALL_PART && ordered.interior().is_empty()
     }
 }
 

@@ -11,16 +11,16 @@ use crate::linear::{read_factor, write_factor};
 use crate::owner;
 
 /// Names the format.
-const MAGIC: &[u8; 8] = b"slipsub\0";
+const FORMAT_NAME: &[u8; 8] = b"slipsub\0";
 
 /// Version of the format.
 const FILE_FORMAT: u64 = 2;
 
 /// Bytes of the header: magic, format, version of the program, identity, length of what follows up to the digest.
-const HEADER_BYTES: usize = 8 + 8 + VERSION + 16 + 8;
+const HEADER_BYTES: usize = 8 + 8 + VERSION_BYTES + 16 + 8;
 
 /// Bytes of a version, padded with zeros.
-const VERSION: usize = 24;
+const VERSION_BYTES: usize = 24;
 
 /// Bytes of the digest at the end.
 const DIGEST: usize = 16;
@@ -29,19 +29,19 @@ const DIGEST: usize = 16;
 const BYTES_AT_A_TIME: usize = 1 << 18;
 
 /// Kept dofs up to which a part without interior is not worth a file.
-pub(super) const TINY: usize = 12;
+pub(super) const SMALL_PART: usize = 12;
 
-fn version() -> [u8; VERSION] {
-    let mut version = [0; VERSION];
+fn version() -> [u8; VERSION_BYTES] {
+    let mut version = [0; VERSION_BYTES];
     let text = env!("CARGO_PKG_VERSION").as_bytes();
-    let length = text.len().min(VERSION);
+    let length = text.len().min(VERSION_BYTES);
     version[..length].copy_from_slice(&text[..length]);
     version
 }
 
 fn header(identity: Identity, length: u64) -> Vec<u8> {
     let mut bytes = Vec::with_capacity(HEADER_BYTES);
-    bytes.extend(MAGIC);
+    bytes.extend(FORMAT_NAME);
     bytes.extend(FILE_FORMAT.to_le_bytes());
     bytes.extend(version());
     bytes.extend(identity.words().iter().flat_map(|w| w.to_le_bytes()));
@@ -120,13 +120,13 @@ pub(super) fn read(
     let mut begin = [0; HEADER_BYTES];
     file.read_exact(&mut begin)
         .map_err(|_| invalid("it is cut short"))?;
-    if !begin.starts_with(MAGIC) {
+    if !begin.starts_with(FORMAT_NAME) {
         return Err(invalid("it is something else"));
     }
     let length = all.saturating_sub((HEADER_BYTES + DIGEST) as u64);
     let expected = header(identity, length);
     if begin != expected[..] {
-        let made_alike = begin[..16 + VERSION] == expected[..16 + VERSION];
+        let made_alike = begin[..16 + VERSION_BYTES] == expected[..16 + VERSION_BYTES];
         return Err(invalid(match made_alike {
             false => "it was made by another version",
             true if begin[..HEADER_BYTES - 8] == expected[..HEADER_BYTES - 8] => {

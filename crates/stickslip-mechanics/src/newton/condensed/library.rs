@@ -185,7 +185,7 @@ impl Library {
                 "factors of this engine are not kept in files: they are where it is".into(),
             );
         };
-        if substructure.root().len() <= file::TINY && factor.bytes() == 0 {
+        if substructure.root().len() <= file::SMALL_PART && factor.bytes() == 0 {
             return None;
         }
         let written = file::write(&path, (substructure, factor));

@@ -47,10 +47,10 @@ pub struct ReducedSolution {
 const TOLERANCES: (f64, f64) = (1e-14, 0.1);
 
 /// Gap rows up to which the factor is made anew every time.
-pub(super) const TINY: usize = 240;
+pub(super) const SMALL_SYSTEM: usize = 240;
 
 /// Most iterations with a fresh factor, and with one that could be made anew: times what is usual.
-const MOST: usize = 200;
+const MOST_WITH_FRESH_FACTOR: usize = 200;
 const OVERTIME: usize = 2;
 
 /// Iterations after which GMRES starts again.
@@ -97,7 +97,7 @@ impl Attempt {
     fn gmres(self, tolerance: f64, patience: usize) -> GmresSettings {
         let max_iterations = match self.factor {
             Factor::Kept => OVERTIME * patience,
-            Factor::Fresh => MOST,
+            Factor::Fresh => MOST_WITH_FRESH_FACTOR,
         };
         GmresSettings {
             tolerance,
@@ -200,7 +200,7 @@ impl ReducedSystem {
             self.gaps = None;
             self.seen.clear();
         }
-        let tiny = 3 * blocks.len() + springs.len() <= TINY;
+        let tiny = 3 * blocks.len() + springs.len() <= SMALL_SYSTEM;
         let same = tiny && self.made_of == blocks;
         if !suits || (tiny && !same) {
             self.preconditioner = None;
@@ -276,7 +276,7 @@ fn keep_gaps(
     tangent: &Tangent,
 ) {
     let mut parts = tangent.condensation.parts.iter();
-    let suits = count > TINY && gap_space::straight(tangent);
+    let suits = count > SMALL_SYSTEM && gap_space::straight(tangent);
     if !suits || !parts.all(|part| part.compliance.is_here()) {
         *gaps = None;
         seen.clear();

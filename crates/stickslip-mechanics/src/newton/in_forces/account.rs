@@ -10,7 +10,7 @@ use crate::system::{Culprit, Otherwise, StepFailure};
 pub(super) const FRICTION_ERROR: f64 = 1e-8;
 
 /// Most points that a failure names.
-const NAMED: usize = 5;
+const NAMED_POINTS: usize = 5;
 
 /// What stands for a solver where none was needed.
 const FIRST_GUESS: &str = "first guess";
@@ -165,7 +165,7 @@ impl Account {
 /// The largest few.
 fn largest(mut parts: Vec<(At, f64)>) -> Vec<(At, f64)> {
     parts.sort_by(|a, b| b.1.total_cmp(&a.1));
-    parts.truncate(NAMED);
+    parts.truncate(NAMED_POINTS);
     parts
 }
 

@@ -128,7 +128,7 @@ fn kind(space: Space, nodes: &str) -> Option<ElementKind> {
 }
 
 /// Elements that are not read, by how their names begin, longer beginnings first: what they are and what to do.
-const STARTS: &[(&str, &str, &str)] = &[
+const TYPE_BEGINNINGS: &[(&str, &str, &str)] = &[
     (
         "CGAX",
         "an axisymmetric element with twist",
@@ -223,7 +223,9 @@ const STARTS: &[(&str, &str, &str)] = &[
 
 /// What other types are, by their first letters.
 fn other(upper: &str) -> Unsupported {
-    let found = STARTS.iter().find(|(start, ..)| upper.starts_with(start));
+    let found = TYPE_BEGINNINGS
+        .iter()
+        .find(|(start, ..)| upper.starts_with(start));
     let (what, help) = match found {
         _ if upper == "D" => (
             "an element of a network of flows",

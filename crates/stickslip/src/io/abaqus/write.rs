@@ -12,7 +12,7 @@ use super::faces::face_number;
 use super::types::Space;
 
 /// Entries a line: more are not allowed in data lines.
-const ENTRIES: usize = 16;
+const ENTRIES_A_LINE: usize = 16;
 
 /// Characters of a number that CalculiX reads.
 const NUMBER_WIDTH: usize = 20;
@@ -124,7 +124,10 @@ fn number(x: f64) -> String {
 /// One record: lines of a record that goes on end with a comma.
 fn list(out: &mut String, numbers: impl Iterator<Item = u64>) {
     let words: Vec<String> = numbers.map(|n| n.to_string()).collect();
-    let lines: Vec<String> = words.chunks(ENTRIES).map(|line| line.join(", ")).collect();
+    let lines: Vec<String> = words
+        .chunks(ENTRIES_A_LINE)
+        .map(|line| line.join(", "))
+        .collect();
     out.push_str(&lines.join(",\n"));
     out.push('\n');
 }
@@ -132,7 +135,7 @@ fn list(out: &mut String, numbers: impl Iterator<Item = u64>) {
 /// Members of a set: each line is a record of its own.
 fn list_all(out: &mut String, numbers: impl Iterator<Item = u64>) {
     let words: Vec<String> = numbers.map(|n| n.to_string()).collect();
-    for line in words.chunks(ENTRIES) {
+    for line in words.chunks(ENTRIES_A_LINE) {
         let _ = writeln!(out, "{}", line.join(", "));
     }
 }

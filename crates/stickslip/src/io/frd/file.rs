@@ -8,7 +8,7 @@ use crate::error::{Error, IoError};
 use crate::io::{own, write_atomically};
 
 /// The last line of a file, over which the next output is written.
-pub const END: &[u8] = b" 9999\n";
+pub const END_LINE: &[u8] = b" 9999\n";
 
 /// How much there is in a file.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, crate::keep::Keep)]
@@ -36,7 +36,7 @@ impl Results {
     /// # Errors
     /// [`Error::Io`] if it cannot be written.
     pub fn create(path: &Path, layout: Layout) -> Result<Self, Error> {
-        write_atomically(path, &[&layout.head, END].concat())?;
+        write_atomically(path, &[&layout.head, END_LINE].concat())?;
         Results::resume(path, layout, Tally::default())
     }
 
@@ -86,11 +86,11 @@ impl Results {
             block.write(&self.layout, moment, number, output, &mut bytes);
         }
         let grown = self.length + bytes.len() as u64;
-        bytes.extend(END);
+        bytes.extend(END_LINE);
         if let Err(e) = self.put(&bytes) {
             // What a full disk has taken of it goes; the first error is the one to report.
             let _ = self.file.set_len(self.length);
-            let _ = self.put(END);
+            let _ = self.put(END_LINE);
             return Err(Error::io(&self.path, e));
         }
         self.length = grown;
@@ -112,7 +112,7 @@ impl Results {
 pub fn end_again(path: &Path) -> Result<(), Error> {
     let end = || {
         let mut file = own::open(path, own::Use::Append)?;
-        file.write_all(END)
+        file.write_all(END_LINE)
     };
     end().map_err(|e| Error::io(path, e))
 }
@@ -120,12 +120,12 @@ pub fn end_again(path: &Path) -> Result<(), Error> {
 /// A file, and its length up to the last line if it has that.
 fn open(path: &Path) -> std::io::Result<(File, Option<u64>)> {
     let mut file = own::open(path, own::Use::Change)?;
-    let length = file.metadata()?.len().checked_sub(END.len() as u64);
+    let length = file.metadata()?.len().checked_sub(END_LINE.len() as u64);
     let Some(length) = length else {
         return Ok((file, None));
     };
     file.seek(SeekFrom::Start(length))?;
-    let mut last = [0; END.len()];
+    let mut last = [0; END_LINE.len()];
     file.read_exact(&mut last)?;
-    Ok((file, (last == END).then_some(length)))
+    Ok((file, (last == END_LINE).then_some(length)))
 }

@@ -12,7 +12,7 @@ pub enum Encoding {
 }
 
 /// Nodes a line in the long format.
-const NODES: usize = 10;
+const NODES_A_LINE: usize = 10;
 
 /// What all blocks of a file have in common: which points of the mesh are in it, and under which numbers.
 #[derive(Debug, Clone)]
@@ -149,7 +149,7 @@ impl Layout {
         }
         let body = columns::whole(body, 5);
         self.line(&format!(" -1{number:>10}{kind:>5}{:>5}{body}", 0));
-        for nodes in nodes.chunks(NODES) {
+        for nodes in nodes.chunks(NODES_A_LINE) {
             let nodes: String = nodes.iter().map(|node| format!("{node:>10}")).collect();
             self.line(&format!(" -2{nodes}"));
         }

@@ -13,5 +13,5 @@ mod kinds;
 mod layout;
 
 pub use block::{Block, Moment, Shape};
-pub use file::{END, Results, Tally, end_again};
+pub use file::{END_LINE, Results, Tally, end_again};
 pub use layout::{Encoding, Layout};

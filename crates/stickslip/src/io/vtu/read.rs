@@ -268,12 +268,14 @@ fn packing(attributes: &[(&str, String)], wanted: &str) -> Result<Packing, Strin
 
 /// The appended data at the front of the rest of a file.
 fn append<'a>(rest: &'a [u8], attributes: &[(&str, String)]) -> Result<Appended<'a>, String> {
-    const END: &[u8] = b"</AppendedData";
+    const END_OF_APPENDED: &[u8] = b"</AppendedData";
     let Some(data) = rest.trim_ascii_start().strip_prefix(b"_") else {
         return Err("the appended data do not begin with `_`".into());
     };
     // From the back: the bytes may be anything.
-    let end = data.windows(END.len()).rposition(|w| w == END);
+    let end = data
+        .windows(END_OF_APPENDED.len())
+        .rposition(|w| w == END_OF_APPENDED);
     let data = &data[..end.ok_or("the appended data have no end")?];
     match attribute(attributes, "encoding") {
         Some("raw") => Ok(Appended::Raw(data)),

@@ -27,11 +27,11 @@ const UNLIMITED: f64 = 1e3;
 
 /// Pressures, over the stiffness of the cells beneath, and speeds, in sizes of a cell in a unit of time, at which friction is asked for.
 const PRESSURES: [f64; 4] = [1e-6, 1e-4, 1e-3, 1e-1];
-const SPEEDS: [f64; 4] = [0.0, 1e-3, 1.0, 1e3];
+const SLIDING_SPEEDS: [f64; 4] = [0.0, 1e-3, 1.0, 1e3];
 
 /// Most motions, and most points, that are looked at.
 const MOST_MOTIONS: usize = 60;
-const MOST_POINTS: usize = 50_000;
+const MOST_POINTS_ASKED: usize = 50_000;
 
 /// Halvings by which a coefficient is found.
 const HALVINGS: usize = 40;
@@ -112,7 +112,7 @@ impl Balance {
             Primary::Rigid(..) => None,
         };
         let mu = largest_friction(interface)?;
-        if interface.points.len() + self.spots.len() > MOST_POINTS {
+        if interface.points.len() + self.spots.len() > MOST_POINTS_ASKED {
             return None;
         }
         let mut opposite = Opposite::new(interface, t);
@@ -289,7 +289,7 @@ fn largest_friction(interface: &InterfaceDefinition) -> Option<f64> {
     let point = interface.points.first()?;
     let mut most = 0.0_f64;
     for pressure in PRESSURES.map(|p| p * point.stiffness * point.size) {
-        for speed in SPEEDS.map(|v| v * point.size) {
+        for speed in SLIDING_SPEEDS.map(|v| v * point.size) {
             for sticking in [true, false] {
                 let limit = law.limit(&FrictionPoint {
                     speed,

@@ -5,7 +5,7 @@ use super::super::definition::{Model, Reference};
 use super::super::frame::ContactMemory;
 use super::super::scene::Scene;
 use super::held::{NO_PART, NO_RESISTANCE, Resisted, directions, plain};
-use super::modes::{BEYOND, Mode, centre, modes, motions, shift_and_turn};
+use super::modes::{BEYOND_CUT, Mode, centre, modes, motions, shift_and_turn};
 use super::{null_space, null_space_below};
 use crate::body::couplings::Row;
 use crate::body::{RigidMode, rigid_modes};
@@ -116,7 +116,7 @@ fn parts(model: &Model, group: &[usize], rows: &[&Row], modes: &[Mode]) -> Vec<P
                         r.body == Some(index) && is_tied_to(model, rows, r, piece)
                     });
                     own.extend(beyond.into_iter().map(|m| RigidMode {
-                        name: format!("{} {BEYOND}", m.name),
+                        name: format!("{} {BEYOND_CUT}", m.name),
                         ..m
                     }));
                 }

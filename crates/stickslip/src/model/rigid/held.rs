@@ -13,7 +13,7 @@ use crate::tolerance::SAME;
 pub(crate) type Unheld = Vec<f64>;
 
 /// Most modes that are looked at together.
-const MOST_MODES: usize = 120;
+const MOST_RIGID_MODES: usize = 120;
 
 /// Resistance to a motion, relative to the largest, up to which it is unconstrained. Tuned.
 pub(crate) const NO_RESISTANCE: f64 = 1e-10;
@@ -142,7 +142,7 @@ pub(crate) fn unheld_beside(
 fn without_contact<'a>(scene: &Scene<'a>, t: f64, modes: &'a [Mode]) -> Option<Resisted<'a>> {
     let model = scene.model;
     let count = modes.len();
-    if count == 0 || count > MOST_MODES {
+    if count == 0 || count > MOST_RIGID_MODES {
         return None;
     }
     let mut resisted = Resisted {

@@ -40,7 +40,7 @@ impl Mode {
             body,
             name: match piece {
                 None => motion.to_string(),
-                Some(_) => format!("{motion} {BEYOND}"),
+                Some(_) => format!("{motion} {BEYOND_CUT}"),
             },
             shift,
             turn,
@@ -99,7 +99,7 @@ impl Mode {
 }
 
 /// What is said of motions of a part that a pretension has cut off.
-pub(super) const BEYOND: &str = "beyond the cut";
+pub(super) const BEYOND_CUT: &str = "beyond the cut";
 
 /// The motions of all bodies, each of size one at the rim of the body.
 pub(crate) fn modes(model: &Model) -> Vec<Mode> {

@@ -85,7 +85,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
 const LONGEST_NAME: usize = 100;
 
 /// Tables whose names begin names of columns.
-const COLUMNS: [&str; 7] = [
+const COLUMN_TABLES: [&str; 7] = [
     "body",
     "reference",
     "interface",
@@ -138,7 +138,7 @@ fn spelled(problem: &Problem, findings: &mut Findings) {
     for (table, names) in tables {
         let mut seen: BTreeMap<String, &str> = BTreeMap::new();
         for name in names {
-            let formula = COLUMNS.contains(&table) && name.starts_with(FORMULA);
+            let formula = COLUMN_TABLES.contains(&table) && name.starts_with(FORMULA);
             let why = formula.then_some("it begins with = + - or @, and a spreadsheet takes a column of that name for a formula");
             if let Some(why) = misspelled(name).or(why) {
                 let article = match table.starts_with(['a', 'e', 'i', 'o', 'u']) {

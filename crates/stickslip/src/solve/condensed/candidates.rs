@@ -13,7 +13,7 @@ const FEW_POINTS: usize = 60;
 const MOST_WIDENED: usize = 4;
 
 /// Times within a step at which supports are looked at.
-const SAMPLES: usize = 16;
+const SUPPORT_TIMES: usize = 16;
 
 /// Points that may come into contact in this step, as far as can be told; never fewer than before. Those that may not are
 /// not looked at.
@@ -93,8 +93,8 @@ fn extra(widened: usize, model: &Model) -> f64 {
 /// How far supports and initial velocities move anything in the step, at most.
 fn travel(model: &Model, frame: &Frame) -> f64 {
     let step = &model.steps[frame.step];
-    let mut times: Vec<f64> = (0..=SAMPLES)
-        .map(|k| step.start + (step.end - step.start) * k as f64 / SAMPLES as f64)
+    let mut times: Vec<f64> = (0..=SUPPORT_TIMES)
+        .map(|k| step.start + (step.end - step.start) * k as f64 / SUPPORT_TIMES as f64)
         .collect();
     times.extend(&step.milestones);
     let u = &frame.state.u;

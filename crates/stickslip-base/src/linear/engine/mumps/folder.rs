@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Names a folder for what passes between processes, which all machines of a job must see.
-const NAMED: &str = "STICKSLIP_MUMPS_DIR";
+const FOLDER_VARIABLE: &str = "STICKSLIP_MUMPS_DIR";
 
 /// A folder of one job, which goes with it.
 #[derive(Debug)]
@@ -15,7 +15,8 @@ impl Folder {
     pub fn new() -> io::Result<Folder> {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         let count = COUNT.fetch_add(1, Ordering::Relaxed);
-        let place = std::env::var_os(NAMED).map_or_else(std::env::temp_dir, PathBuf::from);
+        let place =
+            std::env::var_os(FOLDER_VARIABLE).map_or_else(std::env::temp_dir, PathBuf::from);
         let path = place.join(format!("stickslip-mumps-{}-{count}", std::process::id()));
         let mut builder = DirBuilder::new();
         #[cfg(unix)]

@@ -22,7 +22,7 @@ const BODIES: usize = 256;
 const START: Duration = Duration::from_secs(120);
 
 /// How long they may take to end.
-const END: Duration = Duration::from_secs(10);
+const TIME_TO_END: Duration = Duration::from_secs(10);
 
 /// Lines of what a job says on its standard error that are kept, and shown.
 const KEPT_LINES: usize = 100;
@@ -329,7 +329,7 @@ impl Talk {
             let _ = input.write_all(b"quit\n");
         }
         let started = Instant::now();
-        while started.elapsed() < END {
+        while started.elapsed() < TIME_TO_END {
             match self.child.try_wait() {
                 Ok(None) => std::thread::sleep(Duration::from_millis(5)),
                 _ => return,

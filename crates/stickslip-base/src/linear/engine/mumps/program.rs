@@ -8,7 +8,7 @@ use crate::linear::LinearError;
 const PROGRAM: &str = "stickslip-mumps";
 
 /// Names it, where it is not found.
-const NAMED: &str = "STICKSLIP_MUMPS";
+const PROGRAM_VARIABLE: &str = "STICKSLIP_MUMPS";
 
 /// The command that starts ranks, with arguments: `mpirun`, or as in `srun --mpi=pmix`. `-n N` is added.
 const LAUNCHER: &str = "STICKSLIP_MPIRUN";
@@ -30,12 +30,12 @@ const ENVIRONMENT: &[(&str, &str)] = &[
 
 /// The program: as the environment says, or beside this one, or in `target/engines`, or along `PATH`.
 fn find() -> Result<PathBuf, LinearError> {
-    if let Some(named) = std::env::var_os(NAMED) {
+    if let Some(named) = std::env::var_os(PROGRAM_VARIABLE) {
         let named = PathBuf::from(named);
         return match named.is_file() {
             true => Ok(named),
             false => Err(LinearError::Engine {
-                message: format!("{NAMED}: there is no file {}", named.display()),
+                message: format!("{PROGRAM_VARIABLE}: there is no file {}", named.display()),
                 help: BUILD.into(),
             }),
         };
@@ -53,7 +53,7 @@ fn find() -> Result<PathBuf, LinearError> {
         .find(|candidate| candidate.is_file())
         .ok_or_else(|| LinearError::Engine {
             message: format!(
-                "the engine `mumps` is a program of its own, {PROGRAM}, which is neither beside {} nor along PATH nor named by {NAMED}",
+                "the engine `mumps` is a program of its own, {PROGRAM}, which is neither beside {} nor along PATH nor named by {PROGRAM_VARIABLE}",
                 own.display()
             ),
             help: BUILD.into(),

@@ -1,7 +1,7 @@
 use crate::linear::LinearError;
 
 /// What to try where memory does not suffice.
-const MEMORY: &str = "more ranks on more machines, `solver.engine.mumps.out-of-core = true`, a larger `solver.engine.mumps.memory`, or `low-rank`";
+const MEMORY_OF_RANKS: &str = "more ranks on more machines, `solver.engine.mumps.out-of-core = true`, a larger `solver.engine.mumps.memory`, or `low-rank`";
 
 /// No code of MUMPS: the row where the matrix that a rank has computed is no number.
 const NOT_FINITE: &str = "1";
@@ -21,10 +21,11 @@ pub(super) fn refusal(words: &[String]) -> LinearError {
     let phase = words.get(2..).map_or(String::new(), |rest| rest.join(" "));
     let (what, help) = match code {
         -10 | -6 => return LinearError::Indefinite,
-        -5 | -7 | -13 => ("memory could not be had", MEMORY),
-        -8 | -9 | -11 | -14 | -15 | -17 | -19 | -20 => {
-            ("the memory that a rank may take does not suffice", MEMORY)
-        }
+        -5 | -7 | -13 => ("memory could not be had", MEMORY_OF_RANKS),
+        -8 | -9 | -11 | -14 | -15 | -17 | -19 | -20 => (
+            "the memory that a rank may take does not suffice",
+            MEMORY_OF_RANKS,
+        ),
         -90 => (
             "factors could not be written to disk",
             "let STICKSLIP_MUMPS_DIR name a folder with enough space, or leave `out-of-core` out",

@@ -5,7 +5,7 @@ use std::io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 /// Names the format: `spslump1` in little endian.
-const MAGIC: u64 = 0x3170_6d75_736c_7073;
+const FORMAT_WORD: u64 = 0x3170_6d75_736c_7073;
 
 /// Bytes read and written at a time.
 const PIPE_BYTES: usize = 1 << 16;
@@ -25,7 +25,7 @@ pub(super) struct WordWriter {
 impl WordWriter {
     pub fn new(path: &Path) -> io::Result<Self> {
         let mut file = BufWriter::with_capacity(PIPE_BYTES, File::create(path)?);
-        file.write_all(&MAGIC.to_ne_bytes())?;
+        file.write_all(&FORMAT_WORD.to_ne_bytes())?;
         file.write_all(&0_u64.to_ne_bytes())?;
         Ok(WordWriter {
             file,
@@ -47,7 +47,7 @@ impl WordWriter {
     pub fn finish(mut self) -> io::Result<()> {
         self.file.write_all(&self.sum.to_ne_bytes())?;
         self.file
-            .seek(SeekFrom::Start(size_of_val(&MAGIC) as u64))?;
+            .seek(SeekFrom::Start(size_of_val(&FORMAT_WORD) as u64))?;
         self.file.write_all(&self.count.to_ne_bytes())?;
         self.file.flush()
     }
@@ -70,7 +70,7 @@ impl<'a> WordReader<'a> {
             left: 0,
             sum: 0,
         };
-        if reader.raw()? != MAGIC {
+        if reader.raw()? != FORMAT_WORD {
             return Err(io::Error::other("it is something else"));
         }
         reader.left = reader.raw()?;

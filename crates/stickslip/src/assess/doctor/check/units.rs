@@ -25,7 +25,7 @@ const MODULI: [f64; 2] = [1e2, 2e12];
 const SYSTEMS: [[f64; 2]; 3] = [[1.0, 1.0], [1e6, 1e-3], [6894.757, 0.0254]];
 
 /// Speeds of sound in solids `[m/s]`.
-const SPEEDS: [f64; 2] = [10.0, 2e4];
+const SOUND_SPEEDS: [f64; 2] = [10.0, 2e4];
 
 /// Moduli above which a material in pascals is a metal, a ceramic or a hard plastic `[Pa]`. Soft plastics and rubbers have less.
 const HARD_MODULUS: f64 = 1e9;
@@ -218,7 +218,7 @@ fn alone(model: &Model, n: &Numbers, heavy: bool) -> Option<Finding> {
         if !systems.any(|[stress, length]| {
             let speeds = match stress * n.modulus >= HARD_MODULUS {
                 true => HARD_SPEEDS,
-                false => SPEEDS,
+                false => SOUND_SPEEDS,
             };
             let density = n.density * stress / (length * length);
             within(length * speed, speeds) && within(density, DENSITIES)
