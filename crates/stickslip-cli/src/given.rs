@@ -17,7 +17,7 @@ type Kind = (
 );
 
 const EXPORT: &str = "export the mesh as .inp (Abaqus) or .msh (Gmsh), and name that";
-const KINDS: &[Kind] = &[
+const FILE_KINDS: &[Kind] = &[
     (
         b"\x89PNG",
         &["png", "jpg", "jpeg", "svg"],
@@ -185,12 +185,12 @@ fn folder_of(file: &Path) -> String {
         };
     }
     match what(file) {
-        PROBLEM | DECK => format!("run it first: `stickslip run {}`", file.display()),
+        A_PROBLEM_FILE | DECK => format!("run it first: `stickslip run {}`", file.display()),
         _ => RUN.into(),
     }
 }
 
-const PROBLEM: &str = "a problem file";
+const A_PROBLEM_FILE: &str = "a problem file";
 const DECK: &str = "an input deck";
 
 /// What a file is, as far as its name and its beginning tell.
@@ -203,11 +203,11 @@ fn what(file: &Path) -> &'static str {
     }
     let ending = file.extension().unwrap_or_default();
     match Document::read(file) {
-        Ok(document) if document.problem().is_ok() => PROBLEM,
+        Ok(document) if document.problem().is_ok() => A_PROBLEM_FILE,
         Ok(_) if file.file_name().is_some_and(|n| n == "expected.toml") => {
             "a list of expected values"
         }
-        Ok(_) if ending == "toml" => PROBLEM,
+        Ok(_) if ending == "toml" => A_PROBLEM_FILE,
         _ => "a file",
     }
 }
@@ -224,11 +224,11 @@ fn foreign(path: &Path) -> Option<(&'static str, &'static str)> {
         .unwrap_or_default()
         .to_string_lossy()
         .to_ascii_lowercase();
-    let by_name = KINDS
+    let by_name = FILE_KINDS
         .iter()
         .find(|(_, endings, ..)| endings.contains(&ending.as_str()));
     let by_start = || {
-        KINDS
+        FILE_KINDS
             .iter()
             .find(|(start, ..)| !start.is_empty() && head.starts_with(start))
     };

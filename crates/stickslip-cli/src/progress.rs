@@ -20,7 +20,7 @@ const FIRST_LINES: usize = 40;
 const LINE_INTERVAL: Duration = Duration::from_secs(10);
 
 /// What the columns of the line of an increment are.
-const HEAD: [&str; 9] = [
+const TABLE_HEAD: [&str; 9] = [
     "step", "inc", "time", "its", "stick", "slip", "open", "force", "left",
 ];
 
@@ -84,7 +84,7 @@ impl Progress {
         }
         if self.lines == 1 {
             self.line(&sentence(&legend(analysis)));
-            self.line(&paint(Look::Strong, &columns(HEAD)));
+            self.line(&paint(Look::Strong, &columns(TABLE_HEAD)));
         }
         let column = |name: &str| row.get(name).unwrap_or(0.0);
         let count = |name: &str| column(name).to_string();

@@ -79,7 +79,7 @@ pub const NAMES: &[&str] = &[
 pub const STATUS: &str = "CSTATUS";
 
 /// Fields of contact that begin at zero and grow with what a surface carries.
-const CARRIED: &[&str] = &["CPRESS", "CDISS", "CWEAR"];
+const CARRIED_FIELDS: &[&str] = &["CPRESS", "CDISS", "CWEAR"];
 
 /// The time of interest of a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -111,7 +111,7 @@ impl Field {
 
     /// Whether it begins at zero and grows with what a surface carries.
     pub fn carried(&self) -> bool {
-        CARRIED.contains(&self.name.as_str())
+        CARRIED_FIELDS.contains(&self.name.as_str())
     }
 
     /// Whether its sign changes where the model is mirrored along an axis. Directions along a surface are x laid into it, and the one across.

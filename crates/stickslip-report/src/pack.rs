@@ -5,7 +5,7 @@ use std::io::Write;
 use crate::field;
 
 /// What stands for a missing value.
-pub const NOTHING: i16 = i16::MIN;
+pub const NO_NUMBER: i16 = i16::MIN;
 
 /// Values over all times as whole numbers between -32767 and 32767: each is off by less than a 65534th of the range.
 #[derive(Debug, Clone, PartialEq)]
@@ -16,13 +16,13 @@ pub struct Quantised {
     pub values: Vec<i16>,
 }
 
-/// Makes whole numbers of values. What is no finite number becomes [`NOTHING`].
+/// Makes whole numbers of values. What is no finite number becomes [`NO_NUMBER`].
 pub fn quantise(values: &[f32]) -> Quantised {
     let range = field::range(values.iter().map(|&v| f64::from(v))).unwrap_or([0.0; 2]);
     let [low, high] = range;
     let number = |v: f32| -> i16 {
         if !v.is_finite() {
-            return NOTHING;
+            return NO_NUMBER;
         }
         match high > low {
             true => (((f64::from(v) - low) / (high - low) * 65534.0).round() - 32767.0) as i16,
@@ -110,7 +110,7 @@ mod tests {
                 let back = -4.0 + 7.5 * (f64::from(*n) + 32767.0) / 65534.0;
                 assert!((back - f64::from(*v)).abs() <= 7.5 / 65534.0);
             } else {
-                assert_eq!(*n, NOTHING);
+                assert_eq!(*n, NO_NUMBER);
             }
         }
         assert_eq!(q.values[5], -32767);

@@ -13,7 +13,7 @@ use crate::print;
 use crate::style::WIDTH;
 
 /// The example `lug`, with its mesh: what it computes is checked by the tests of the library.
-const FILES: [(&str, &str); 2] = [
+const DEMO_FILES: [(&str, &str); 2] = [
     (
         "lug.toml",
         include_str!("../../../../examples/lug/case.toml"),
@@ -49,7 +49,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
     let folder = &arguments.directory;
     write(folder)?;
     print::out(&print::wrap(STORY, 0, WIDTH))?;
-    let (problem, results) = (folder.join(FILES[0].0), folder.join("lug.out"));
+    let (problem, results) = (folder.join(DEMO_FILES[0].0), folder.join("lug.out"));
     let manner = Manner::new(arguments.threads, arguments.quiet);
     let code = run::run(&run::Arguments::of(&problem, &results, manner))?;
     let (pictures, _) = plot::picture(&results, None, &plot::Picture::default())?;
@@ -78,7 +78,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
 
 /// Writes the files of the example. What is there already under their names has to be the same: it may be somebody's work.
 fn write(folder: &Path) -> Result<(), Failure> {
-    for (name, content) in FILES {
+    for (name, content) in DEMO_FILES {
         // In the folder of the example the schema is that of the repository.
         let content = content.replacen("#:schema ../../", "#:schema ./", 1);
         let path = folder.join(name);

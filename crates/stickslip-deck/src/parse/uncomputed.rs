@@ -9,7 +9,7 @@ pub(super) const NETWORKS: &str = "networks of flows";
 pub(super) const CONNECTORS: &str = "connectors";
 pub(super) const COHESIVE: &str = "cohesive elements";
 pub(super) const USER_ELEMENTS: &str = "elements of the user";
-pub(super) const HEAT: &str = "temperatures by heat transfer";
+pub(super) const HEAT_TRANSFER: &str = "temperatures by heat transfer";
 
 /// Something that is not computed, wherever the deck has it.
 #[derive(Debug, Clone)]
@@ -32,7 +32,7 @@ pub(super) fn kind_of_elements(what: &'static str) -> Option<&'static str> {
         "a connector" => CONNECTORS,
         "a cohesive element" => COHESIVE,
         "an acoustic element" => "acoustic elements",
-        "an element of heat transfer" => HEAT,
+        "an element of heat transfer" => HEAT_TRANSFER,
         "an element of a network of flows" => NETWORKS,
         "an element of the user" => USER_ELEMENTS,
         _ => return None,

@@ -11,7 +11,7 @@ const LISTED: usize = 12;
 
 /// Names that are defined and never mentioned again, from the cards alone.
 pub(super) fn unused(source: &Source) -> Vec<(Place, String)> {
-    const KINDS: &[(&str, &[&str], &str)] = &[
+    const DEFINITIONS: &[(&str, &[&str], &str)] = &[
         ("sets of nodes", &["NSET"], "NSET"),
         ("sets of elements", &["ELSET"], "ELSET"),
         ("surfaces", &["SURFACE"], "NAME"),
@@ -23,7 +23,7 @@ pub(super) fn unused(source: &Source) -> Vec<(Place, String)> {
     ];
     let mentioned = mentioned(source);
     let mut out = Vec::new();
-    for (what, keywords, parameter) in KINDS {
+    for (what, keywords, parameter) in DEFINITIONS {
         let mut names: Vec<(Place, &str)> = Vec::new();
         for card in source
             .cards

@@ -3,10 +3,10 @@
 use tiny_skia::{Path, PathBuilder};
 use ttf_parser::{Face, OutlineBuilder};
 
-const DATA: &[u8] = include_bytes!("../../assets/vendor/DejaVuSans-subset.ttf");
+const FONT_FILE: &[u8] = include_bytes!("../../assets/vendor/DejaVuSans-subset.ttf");
 
 fn face() -> Option<Face<'static>> {
-    Face::parse(DATA, 0).ok()
+    Face::parse(FONT_FILE, 0).ok()
 }
 
 /// Width of a text of this size `[pixels]`.

@@ -145,14 +145,14 @@ fn describe(
     let mut shown = Vec::new();
     for (i, (field, column)) in list.iter().zip(columns).enumerate() {
         let q = pack::quantise(column);
-        if q.values.iter().all(|&v| v == pack::NOTHING) {
+        if q.values.iter().all(|&v| v == pack::NO_NUMBER) {
             continue;
         }
         let (span, signed) = field::span_of(Some(field), q.range);
         shown.push(json!({
             "key": format!("f{i}"), "name": field.name, "label": field.label(), "range": q.range,
             "span": span, "signed": signed, "carried": field.carried(), "contact": field.of_contact(), "status": field.name == field::STATUS,
-            "partial": q.values.contains(&pack::NOTHING),
+            "partial": q.values.contains(&pack::NO_NUMBER),
         }));
         blobs.push((format!("f{i}"), pack::shorts(&q.values)));
     }

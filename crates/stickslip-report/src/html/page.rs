@@ -12,7 +12,7 @@ const PLOT: &str = include_str!("../../assets/vendor/uPlot.iife.min.js");
 const THREE_JS: &str = include_str!("../../assets/vendor/three.bundle.min.js");
 const DATA: &str = include_str!("../../assets/data.js");
 const PLOTS: &str = include_str!("../../assets/plots.js");
-const VIEW: &str = include_str!("../../assets/view.js");
+const VIEW_JS: &str = include_str!("../../assets/view.js");
 
 /// Nothing may be loaded from anywhere: a page that tries is stopped by the browser.
 const POLICY: &str =
@@ -111,7 +111,7 @@ pub fn write(
         let text = crate::pack::packed(THREE_JS.as_bytes());
         page += &format!("<script type=\"text/plain\" id=\"blob-three\">{text}</script>\n");
     }
-    for script in [PLOT, DATA, PLOTS, VIEW] {
+    for script in [PLOT, DATA, PLOTS, VIEW_JS] {
         page += &format!("<script>{script}</script>\n");
     }
     page += "</body>\n</html>\n";
@@ -135,7 +135,7 @@ mod tests {
 
     #[test]
     fn scripts_that_are_built_in_cannot_end_their_element() {
-        for script in [PLOT, THREE_JS, DATA, PLOTS, VIEW] {
+        for script in [PLOT, THREE_JS, DATA, PLOTS, VIEW_JS] {
             let lower = script.to_ascii_lowercase();
             assert!(!lower.contains("</script") && !lower.contains("<!--"));
         }

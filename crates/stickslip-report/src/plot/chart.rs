@@ -18,7 +18,7 @@ const INKS: [Rgb; 7] = [
     [86, 180, 233],
     [110, 110, 110],
 ];
-const GRID: Rgb = [222, 226, 232];
+const GRID_INK: Rgb = [222, 226, 232];
 
 /// What a chart shows.
 pub struct Chart<'a> {
@@ -102,7 +102,7 @@ impl<'a> Chart<'a> {
         };
         for (tick, label) in &own.labels {
             let y = place(&own, *tick);
-            let pen = Pen::new(if *tick == 0.0 { SOFT } else { GRID }, 0.07 * em);
+            let pen = Pen::new(if *tick == 0.0 { SOFT } else { GRID_INK }, 0.07 * em);
             canvas.line(&[[left, y], [right, y]], pen);
             let at = [left - 0.6 * em, y + 0.36 * em];
             canvas.text(at, label, em, Anchor::End, SOFT, false);
@@ -116,7 +116,7 @@ impl<'a> Chart<'a> {
         }
         for tick in axis::ticks(x0, x1, 8) {
             let x = px(tick);
-            canvas.line(&[[x, top], [x, bottom]], Pen::new(GRID, 0.07 * em));
+            canvas.line(&[[x, top], [x, bottom]], Pen::new(GRID_INK, 0.07 * em));
             let at = [x, bottom + 1.5 * em];
             canvas.text(at, &axis::number(tick, 5), em, Anchor::Middle, SOFT, false);
         }

@@ -210,8 +210,8 @@ impl<'a> Scene<'a> {
             contacts,
             in_view: shown.in_view,
             given: wanted.colours.range.is_some(),
-            bounds: zoom::NOTHING,
-            seen: zoom::NOTHING,
+            bounds: zoom::EMPTY_BOX,
+            seen: zoom::EMPTY_BOX,
             acting,
             arrows: wanted.arrows.unwrap_or(contact && whole.dim == 2),
             units: match (&wanted.units, wanted.mode.is_some()) {
@@ -235,7 +235,7 @@ impl<'a> Scene<'a> {
     ) -> Result<(), Error> {
         let look = &self.look;
         let field = look.field.as_ref();
-        let (mut all, mut bounds) = (Vec::new(), zoom::NOTHING);
+        let (mut all, mut bounds) = (Vec::new(), zoom::EMPTY_BOX);
         for &frame in frames {
             let points = self.results.points(frame)?;
             let values = values(&points, &look.skin, field);

@@ -29,7 +29,7 @@ pub enum Kind {
 }
 
 /// What each kind is called, and its ink.
-const KINDS: [(Kind, &str, Rgb); 3] = [
+const SYMBOL_KINDS: [(Kind, &str, Rgb); 3] = [
     (Kind::Held, "held", [47, 110, 79]),
     (Kind::Prescribed, "prescribed displacement", [117, 79, 160]),
     (Kind::Load, "load", [178, 24, 43]),
@@ -209,7 +209,7 @@ pub fn draw(
             continue;
         }
         taken.push((symbol.kind, way, p));
-        let Some((_, _, ink)) = KINDS.iter().find(|k| k.0 == symbol.kind) else {
+        let Some((_, _, ink)) = SYMBOL_KINDS.iter().find(|k| k.0 == symbol.kind) else {
             continue;
         };
         let d = drawn.towards(way);
@@ -253,7 +253,7 @@ fn keys(symbols: &[(Symbol, Vec3)], drawn: &Drawn, canvas: &mut dyn Canvas) {
     let em = drawn.em;
     let y = drawn.at[1] + drawn.area[1] + 1.6 * em;
     let mut x = drawn.at[0] + 6.0 * em;
-    for (kind, words, ink) in KINDS {
+    for (kind, words, ink) in SYMBOL_KINDS {
         if symbols.iter().all(|(s, _)| s.kind != kind) {
             continue;
         }

@@ -10,7 +10,7 @@ use crate::sheet::Sheet;
 pub type Box2 = [[f64; 2]; 2];
 
 /// The box of nothing.
-pub const NOTHING: Box2 = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+pub const EMPTY_BOX: Box2 = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
 
 /// Parts of the model by which sides of an interface may be drawn apart along their normal, and across.
 const DRAWN_APART: [f64; 2] = [0.001, 0.02];
@@ -74,7 +74,7 @@ pub fn keep_below(grid: &mut Grid, axis: usize, at: f64) {
 /// The box around these points and their images.
 pub fn around(points: impl Iterator<Item = [f64; 3]>, mirrors: &[Mirror], camera: &Camera) -> Box2 {
     let images = images(mirrors);
-    let mut bounds = NOTHING;
+    let mut bounds = EMPTY_BOX;
     for x in points {
         for seen in &images {
             include(&mut bounds, camera.see(image(x, seen)));
@@ -196,17 +196,17 @@ mod tests {
         assert_eq!(seen(ALL, large, Zoom::Auto, None).unwrap(), ALL);
         assert_eq!(seen(ALL, small, Zoom::Whole, None).unwrap(), ALL);
         assert!(
-            seen(ALL, NOTHING, Zoom::Contact, None)
+            seen(ALL, EMPTY_BOX, Zoom::Contact, None)
                 .unwrap_err()
                 .contains("nothing presses")
         );
         let at = Some([1.0, 1.0, 0.0]);
         assert_eq!(
-            seen(ALL, NOTHING, Zoom::Times(2.0), at).unwrap(),
+            seen(ALL, EMPTY_BOX, Zoom::Times(2.0), at).unwrap(),
             [[-1.5, 0.0], [3.5, 2.0]]
         );
         assert_eq!(
-            seen(ALL, NOTHING, Zoom::Auto, at).unwrap(),
+            seen(ALL, EMPTY_BOX, Zoom::Auto, at).unwrap(),
             [[-0.25, 0.5], [2.25, 1.5]]
         );
     }

@@ -23,10 +23,10 @@ use crate::failure::Failure;
 const RECORD: &str = "shard.json";
 
 /// The file that says who is at it.
-const LEASE: &str = "shard.lease";
+const SHARD_LEASE: &str = "shard.lease";
 
 /// What `shard.json` says that it is.
-const KIND: &str = "stickslip sweep shard 2";
+const SHARD_KIND: &str = "stickslip sweep shard 2";
 
 /// One of how many parts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -168,7 +168,7 @@ impl Sweep {
 
     fn to_json(&self, share: Share) -> Value {
         json!(Record {
-            kind: KIND.into(),
+            kind: SHARD_KIND.into(),
             share,
             sweep: self.clone(),
         })
@@ -176,7 +176,7 @@ impl Sweep {
 
     fn from_json(value: &Value) -> Option<(Sweep, Share)> {
         let Record { kind, share, sweep } = Record::deserialize(value).ok()?;
-        let sound = kind == KIND && (1..=share.of).contains(&share.index);
+        let sound = kind == SHARD_KIND && (1..=share.of).contains(&share.index);
         sound.then_some((sweep, share))
     }
 }
@@ -233,7 +233,7 @@ impl Shard {
 
     /// Who is at it.
     pub fn holder(&self) -> Option<String> {
-        let holder = Holder::named_in(&self.folder.join(LEASE));
+        let holder = Holder::named_in(&self.folder.join(SHARD_LEASE));
         holder.map(|holder| holder.to_string())
     }
 
@@ -345,7 +345,7 @@ impl Shard {
 /// [`Failure`]: another process is at it; what the system says.
 pub fn take(folder: &Path, waits: &dyn Fn(&str)) -> Result<(Owner, Option<String>), Failure> {
     fs::create_dir_all(folder).map_err(|e| Error::io(folder, e))?;
-    let path = &folder.join(LEASE);
+    let path = &folder.join(SHARD_LEASE);
     let mut waiting = Waiting::default();
     let mut before = None;
     loop {

@@ -122,18 +122,18 @@ fn is_range(item: &str) -> bool {
 /// The values of `from..to:count`, both ends included. They are whole numbers if the ends are written so and all
 /// between them are whole; keys that take numbers of any kind take those too.
 fn range(item: &str) -> Result<Vec<String>, String> {
-    const FORM: &str = "write from..to:count, for example 0.1..0.5:50";
-    let (from, rest) = item.split_once("..").ok_or(FORM)?;
+    const RANGE_FORM: &str = "write from..to:count, for example 0.1..0.5:50";
+    let (from, rest) = item.split_once("..").ok_or(RANGE_FORM)?;
     let (to, count) = rest
         .split_once(':')
-        .ok_or_else(|| format!("it does not say how many values; {FORM}"))?;
+        .ok_or_else(|| format!("it does not say how many values; {RANGE_FORM}"))?;
     let ends = (number(from)?, number(to)?);
     let count = match count.trim().parse::<usize>() {
         Ok(count) if (2..=MOST_RUNS).contains(&count) => count,
         Ok(_) => return Err(format!("it needs 2 to {MOST_RUNS} values")),
         Err(_) => {
             return Err(format!(
-                "`{}` is not a number of values; {FORM}",
+                "`{}` is not a number of values; {RANGE_FORM}",
                 count.trim()
             ));
         }

@@ -4,7 +4,8 @@ use super::row::{Data, NUMERICS, Row, SUBROUTINE, card, harmless, harmless_card,
 use crate::parse::{interaction, pairs, reader::Context, structure::Level};
 
 const EXACT: &str = "hard contact and sticking are exact here, which is what it approximates";
-const HEAT: &str = "temperatures are not computed, and what would change them is refused";
+const HEAT_OF_CONTACT: &str =
+    "temperatures are not computed, and what would change them is refused";
 const SOLID: &str = "it is about shells, which are refused";
 const TIE: &str = "only surfaces that stay together are tied; *EQUATION ties nodes otherwise";
 
@@ -180,7 +181,7 @@ pub(super) const ROWS: &[Row] = &[
         ],
     ).at(Level::Assembly),
     harmless_card("CONTACTCONTROLS", NUMERICS),
-    harmless_card("GAPCONDUCTANCE", HEAT),
-    harmless_card("GAPHEATGENERATION", HEAT),
+    harmless_card("GAPCONDUCTANCE", HEAT_OF_CONTACT),
+    harmless_card("GAPHEATGENERATION", HEAT_OF_CONTACT),
     harmless_card("SURFACEPROPERTY", "it is about acoustics"),
 ];

@@ -1,8 +1,8 @@
 //! Cards that are refused for one reason, as a kind of things.
 
-use super::refused::{HEAT as HEAT_HELP, LAW, TIME};
+use super::refused::{LAW, NO_HEAT, TIME};
 use crate::parse::uncomputed::{
-    BEAMS, COHESIVE, CONNECTORS, HEAT, MEMBRANES, NETWORKS, SHELLS, USER_ELEMENTS,
+    BEAMS, COHESIVE, CONNECTORS, HEAT_TRANSFER, MEMBRANES, NETWORKS, SHELLS, USER_ELEMENTS,
 };
 
 /// The kind of a refused card, in the plural, from what it is about, or from the help that it has in common with others.
@@ -18,7 +18,7 @@ pub fn kind_of_card(keyword: &str, help: &str) -> Option<&'static str> {
         "COHESIVESECTION" => COHESIVE,
         "USERELEMENT" | "UEL" | "USERSECTION" => USER_ELEMENTS,
         _ if help == LAW => "materials that are not linear elastic",
-        _ if help == HEAT_HELP => HEAT,
+        _ if help == NO_HEAT => HEAT_TRANSFER,
         _ if help == TIME => {
             "analyses other than *STATIC, *DYNAMIC, *FREQUENCY, *COMPLEX FREQUENCY and *STEADY STATE DYNAMICS"
         }

@@ -3,7 +3,7 @@
 use super::row::{Data, Row, SUBROUTINE, card, harmless, harmless_card, idle, read, refused};
 use crate::parse::{material, orientation, structure::Level};
 
-const HEAT: &str = "temperatures are given, not computed: heat does not flow";
+const HEAT_OF_MATERIAL: &str = "temperatures are given, not computed: heat does not flow";
 const CONSTANT: &str = "constants depend on temperature only";
 
 pub(super) const ROWS: &[Row] = &[
@@ -70,9 +70,9 @@ pub(super) const ROWS: &[Row] = &[
         ],
     )
     .beneath(),
-    harmless_card("CONDUCTIVITY", HEAT),
-    harmless_card("SPECIFICHEAT", HEAT),
-    harmless_card("LATENTHEAT", HEAT),
+    harmless_card("CONDUCTIVITY", HEAT_OF_MATERIAL),
+    harmless_card("SPECIFICHEAT", HEAT_OF_MATERIAL),
+    harmless_card("LATENTHEAT", HEAT_OF_MATERIAL),
     harmless_card(
         "VISCOSITY",
         "it is a property of fluids, and bodies are solid",

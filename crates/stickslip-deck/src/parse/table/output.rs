@@ -3,7 +3,7 @@
 use super::row::{Data, Fate, Parameter, Row, card, harmless, harmless_card, idle, read, refused};
 use crate::parse::output;
 
-const VIEW: &str = "it only chooses what is written";
+const ONLY_WRITTEN: &str = "it only chooses what is written";
 
 /// When something is written.
 const WHEN: &[Parameter] = &[read("FREQUENCY"), read("FREQUENCYF"), read("TIMEPOINTS")];
@@ -11,7 +11,7 @@ const WHEN: &[Parameter] = &[read("FREQUENCY"), read("FREQUENCYF"), read("TIMEPO
 /// A card that asks for fields: which and when is read; they are written of the whole model.
 const fn fields(keyword: &'static str) -> Row {
     Row {
-        others: Some(Fate::Idle(VIEW)),
+        others: Some(Fate::Idle(ONLY_WRITTEN)),
         ..card(keyword, output::output, Data::Any, WHEN)
     }
 }
@@ -28,7 +28,7 @@ pub(super) const ROWS: &[Row] = &[
             read("FREQUENCYF"),
             read("TIMEPOINTS"),
             read("GLOBAL"),
-            harmless("SUMMARY", VIEW),
+            harmless("SUMMARY", ONLY_WRITTEN),
         ],
     ),
     card(
@@ -42,7 +42,7 @@ pub(super) const ROWS: &[Row] = &[
             read("FREQUENCYF"),
             read("TIMEPOINTS"),
             read("GLOBAL"),
-            harmless("SUMMARY", VIEW),
+            harmless("SUMMARY", ONLY_WRITTEN),
             refused(
                 "POSITION",
                 "values are printed at the points of integration: leave it out",
@@ -60,9 +60,9 @@ pub(super) const ROWS: &[Row] = &[
             read("FREQUENCY"),
             read("FREQUENCYF"),
             read("TIMEPOINTS"),
-            harmless("SUMMARY", VIEW),
-            harmless("LASTITERATIONS", VIEW),
-            harmless("CONTACTELEMENTS", VIEW),
+            harmless("SUMMARY", ONLY_WRITTEN),
+            harmless("LASTITERATIONS", ONLY_WRITTEN),
+            harmless("CONTACTELEMENTS", ONLY_WRITTEN),
             harmless(
                 "NSET",
                 "all contact pairs are printed, or the one of SLAVE and MASTER",
@@ -109,15 +109,15 @@ pub(super) const ROWS: &[Row] = &[
         ],
         ..fields("OUTPUT")
     },
-    harmless_card("PREPRINT", VIEW),
-    harmless_card("PRINT", VIEW),
-    harmless_card("MONITOR", VIEW),
-    harmless_card("DIAGNOSTICS", VIEW),
-    harmless_card("FILTER", VIEW),
-    harmless_card("FILEFORMAT", VIEW),
-    harmless_card("FILEOUTPUT", VIEW),
-    harmless_card("INCREMENTATIONOUTPUT", VIEW),
-    harmless_card("MODALOUTPUT", VIEW),
+    harmless_card("PREPRINT", ONLY_WRITTEN),
+    harmless_card("PRINT", ONLY_WRITTEN),
+    harmless_card("MONITOR", ONLY_WRITTEN),
+    harmless_card("DIAGNOSTICS", ONLY_WRITTEN),
+    harmless_card("FILTER", ONLY_WRITTEN),
+    harmless_card("FILEFORMAT", ONLY_WRITTEN),
+    harmless_card("FILEOUTPUT", ONLY_WRITTEN),
+    harmless_card("INCREMENTATIONOUTPUT", ONLY_WRITTEN),
+    harmless_card("MODALOUTPUT", ONLY_WRITTEN),
     harmless_card("ENERGYFILE", "energies are in history.csv"),
     harmless_card("ENERGYPRINT", "energies are in history.csv"),
     harmless_card("ENERGYOUTPUT", "energies are in history.csv"),

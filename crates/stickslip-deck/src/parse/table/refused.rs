@@ -3,7 +3,7 @@
 use super::row::{Row, refused_card};
 
 pub(super) const TIME: &str = "only *STATIC, *DYNAMIC, *FREQUENCY, *COMPLEX FREQUENCY and *STEADY STATE DYNAMICS steps are computed";
-pub(super) const HEAT: &str = "heat does not flow here: give the temperatures themselves, by *TEMPERATURE in a *STATIC or *DYNAMIC step";
+pub(super) const NO_HEAT: &str = "heat does not flow here: give the temperatures themselves, by *TEMPERATURE in a *STATIC or *DYNAMIC step";
 const SECTION: &str = "only solid, plane and axisymmetric continuum elements are computed: model the part with continuum elements";
 pub(super) const LAW: &str =
     "bodies are linear elastic (*ELASTIC): replace the material, or use another program";
@@ -34,16 +34,16 @@ pub(super) const ROWS: &[Row] = &[
     refused_card("NODALTHICKNESS", SECTION),
     refused_card("SUBSTRUCTUREGENERATE", TIME).procedure(),
     refused_card("MATRIXASSEMBLE", TIME),
-    refused_card("COUPLEDTEMPERATURE-DISPLACEMENT", HEAT).procedure(),
-    refused_card("UNCOUPLEDTEMPERATURE-DISPLACEMENT", HEAT).procedure(),
-    refused_card("HEATTRANSFER", HEAT).procedure(),
-    refused_card("CFLUX", HEAT),
-    refused_card("DFLUX", HEAT),
-    refused_card("FILM", HEAT),
-    refused_card("RADIATE", HEAT),
-    refused_card("SFILM", HEAT),
-    refused_card("SRADIATE", HEAT),
-    refused_card("MASSFLOW", HEAT),
+    refused_card("COUPLEDTEMPERATURE-DISPLACEMENT", NO_HEAT).procedure(),
+    refused_card("UNCOUPLEDTEMPERATURE-DISPLACEMENT", NO_HEAT).procedure(),
+    refused_card("HEATTRANSFER", NO_HEAT).procedure(),
+    refused_card("CFLUX", NO_HEAT),
+    refused_card("DFLUX", NO_HEAT),
+    refused_card("FILM", NO_HEAT),
+    refused_card("RADIATE", NO_HEAT),
+    refused_card("SFILM", NO_HEAT),
+    refused_card("SRADIATE", NO_HEAT),
+    refused_card("MASSFLOW", NO_HEAT),
     refused_card("ELECTROMAGNETICS", TIME).procedure(),
     refused_card("BUCKLE", TIME).procedure(),
     refused_card("MODALDYNAMIC", TIME).procedure(),
@@ -102,7 +102,7 @@ pub(super) const ROWS: &[Row] = &[
     refused_card("POROUSELASTIC", LAW),
     refused_card("NMAP", "write the nodes out"),
     refused_card("ADDRESTRAINT", "use *BOUNDARY"),
-    refused_card("VIEWFACTOR", HEAT),
+    refused_card("VIEWFACTOR", NO_HEAT),
     refused_card("INITIALSTRAININCREASE", TIME),
     refused_card("VALUESATINFINITY", TIME),
     refused_card("MASSLESS", TIME),
@@ -115,7 +115,7 @@ pub(super) const ROWS: &[Row] = &[
     refused_card("CONSTRAINT", TIME),
     refused_card("DESIGNVARIABLES", TIME),
     refused_card("OBJECTIVE", TIME),
-    refused_card("CAVITYDEFINITION", HEAT),
+    refused_card("CAVITYDEFINITION", NO_HEAT),
     refused_card("SUBCYCLING", TIME),
     refused_card("DAMAGEINITIATION", LAW),
     refused_card("DAMAGEEVOLUTION", LAW),
@@ -181,7 +181,7 @@ pub(super) const ROWS: &[Row] = &[
     refused_card("SUBSTRUCTUREMATRIXOUTPUT", TIME),
     refused_card("USEREFINEDMESH", "refine the mesh before"),
     refused_card("GEOMETRICTOLERANCES", TIME),
-    refused_card("DSFLUX", HEAT),
+    refused_card("DSFLUX", NO_HEAT),
     refused_card("DRUCKERPRAGERHARDENING", LAW),
     refused_card("ENRICHMENT", LAW),
     refused_card("FLUIDSECTIONS", SECTION),

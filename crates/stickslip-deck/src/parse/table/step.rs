@@ -13,8 +13,8 @@ const STILL: &str =
     "base excitation is not supported in steady-state dynamics: use harmonic forces";
 const DIRECT: &str = "the answer is as good as the residual that is told of each frequency, however it is found: leave it out, and write INTERVAL=RANGE for frequencies without regard to modes";
 const FOLLOWER: &str = "forces keep their direction: leave FOLLOWER out";
-const FILES: &str = "results of a heat analysis are not read from a file: write the temperature of each node on data lines";
-const ZERO: &str = "the time of the analysis goes on from step to step: leave it out, and begin amplitudes of the total time where the step does";
+const NOT_FROM_FILES: &str = "results of a heat analysis are not read from a file: write the temperature of each node on data lines";
+const TIME_GOES_ON: &str = "the time of the analysis goes on from step to step: leave it out, and begin amplitudes of the total time where the step does";
 const GYROSCOPIC: &str = "what turns does so slowly here, without gyroscopic forces; modes of steady sliding are found by *COMPLEX FREQUENCY alone, after a *STATIC step with *MOTION";
 const ACCURACY: &str = "it controls the lengths of increments; those are stickslip's own, in the bounds of the data line";
 
@@ -69,8 +69,8 @@ pub(super) const ROWS: &[Row] = &[
                 "RIKS",
                 "loads are prescribed: prescribe a displacement where a load would fall",
             ),
-            refused("TIMERESET", ZERO),
-            refused("TOTALTIMEATSTART", ZERO),
+            refused("TIMERESET", TIME_GOES_ON),
+            refused("TOTALTIMEATSTART", TIME_GOES_ON),
         ],
     ).kept(),
     card(
@@ -97,8 +97,8 @@ pub(super) const ROWS: &[Row] = &[
                 "RELATIVETOABSOLUTE",
                 "displacements are absolute throughout: write the step with absolute ones",
             ),
-            refused("TIMERESET", ZERO),
-            refused("TOTALTIMEATSTART", ZERO),
+            refused("TIMERESET", TIME_GOES_ON),
+            refused("TOTALTIMEATSTART", TIME_GOES_ON),
             refused("SUBSPACE", "modal dynamics is not computed"),
             refused("ADIABATIC", "temperatures are not computed"),
         ],
@@ -250,14 +250,14 @@ pub(super) const ROWS: &[Row] = &[
             read("OP"),
             read("AMPLITUDE"),
             read("TIMEDELAY"),
-            refused("FILE", FILES),
-            refused("BSTEP", FILES),
-            refused("ESTEP", FILES),
-            refused("BINC", FILES),
-            refused("EINC", FILES),
-            refused("INTERPOLATE", FILES),
-            refused("MIDSIDE", FILES),
-            refused("ABSOLUTEEXTERIORTOLERANCE", FILES),
+            refused("FILE", NOT_FROM_FILES),
+            refused("BSTEP", NOT_FROM_FILES),
+            refused("ESTEP", NOT_FROM_FILES),
+            refused("BINC", NOT_FROM_FILES),
+            refused("EINC", NOT_FROM_FILES),
+            refused("INTERPOLATE", NOT_FROM_FILES),
+            refused("MIDSIDE", NOT_FROM_FILES),
+            refused("ABSOLUTEEXTERIORTOLERANCE", NOT_FROM_FILES),
             refused("SUBMODEL", SUBMODEL),
             refused("STEP", SUBMODEL),
             refused("DATASET", SUBMODEL),

@@ -18,8 +18,8 @@ use crate::units::behind;
 /// Draws both maps.
 pub fn draw(sheet: &Sheet, page: &Page, canvas: &mut dyn Canvas) -> Result<(), String> {
     let plan = unroll::plan(sheet);
-    let mut whole = zoom::NOTHING;
-    let mut patch = zoom::NOTHING;
+    let mut whole = zoom::EMPTY_BOX;
+    let mut patch = zoom::EMPTY_BOX;
     for p in &plan {
         zoom::include(&mut whole, [p[0], p[1], 0.0]);
     }
