@@ -11,7 +11,8 @@ const LARGEST_ERROR: f64 = 1.6;
 
 /// How many earlier moments are asked.
 const MOMENTS: usize = 12;
-/// The first of the earlier moments is when this part of what is done was done. Tuned.
+/// The first of the earlier moments is when this part of what is done was done: rates are those of the second half, which is an eighth of
+/// the work before that.
 const FIRST_MOMENT: f64 = 0.25;
 
 /// Most looks at the clock that are kept.

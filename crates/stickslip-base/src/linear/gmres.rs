@@ -23,7 +23,8 @@ impl Default for GmresSettings {
     }
 }
 
-/// Part of the tolerance that all errors of inexact products may take together. The iteration has the rest. Tuned.
+/// Part of the tolerance that all errors of inexact products may take together. The iteration has the rest: what it has to gain more is less than
+/// a step of it gains.
 const INEXACT_PRODUCTS: f64 = 0.1;
 
 /// `product(v, out, error)` makes `out = A v` with an error that is not above `error` times the product.

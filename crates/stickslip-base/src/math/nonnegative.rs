@@ -3,7 +3,8 @@
 use super::symmetric_eigen;
 use super::vector::{dot, norm};
 
-/// Part of the sizes below which a column is rounding or does not help. Tuned.
+/// Part of the sizes below which a column is rounding or does not help: coefficients come from products of columns, with half of the digits that a direction
+/// has. Between 3e-11 and 1e-9 all short cases (see `tolerance`) have the same digits, and tests of unconstrained bodies pass.
 const NO_HELP: f64 = 1e-10;
 
 /// Most changes of the active set, a row.

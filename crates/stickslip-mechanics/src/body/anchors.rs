@@ -63,17 +63,21 @@ pub struct Hold {
 }
 
 /// Part of the way of a round that the load may move a body in the first, before anything is known of what resists: the points that touch
-/// first must not be pressed in so deep that others seem to touch, too. Tuned.
+/// first must not be pressed in so deep that others seem to touch, too. With 0.06 the examples `lug` and `closing-gaps` take 197 iterations in
+/// place of 215, keep their expected values, and tests of unconstrained bodies pass; with 0.006 the test
+/// `what_slides_off_between_walls_rubs_all_the_way` fails.
 const FIRST_WAY: f64 = 0.02;
 
-/// Largest ratio by which anchors get weaker from one round to the next. Tuned.
+/// Largest ratio by which anchors get weaker from one round to the next. With 3 and 30 the same examples take 214 and 205 iterations and keep their expected
+/// values, and tests of unconstrained bodies pass.
 const LARGEST_RELIEF: f64 = 10.0;
 
 /// Least stiffness of all anchors of a body, over the force on it and the size of a cell. A body that is pressed into a seat or onto other
 /// bodies can roll there. What resists is the force over a radius, and the tangent leaves that out: Newton's method contracts only if the
 /// anchors are stiffer.
 const ROLLING_STIFFNESS: f64 = 2.0;
-/// Factor on the least stiffness each time it proves too weak. Tuned.
+/// Factor on the least stiffness each time it proves too weak. With 2.4 and 24 the same examples have the same digits; with 24 the
+/// test `a_ball_falls_onto_three` fails.
 const FIRMER: f64 = 8.0;
 
 /// Evaluations in a round up to which anchors may get weaker.

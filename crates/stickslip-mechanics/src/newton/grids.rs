@@ -35,10 +35,12 @@ const MOST_GRID_ITERATIONS: usize = 200;
 /// Iterations after which GMRES starts again.
 const RESTART: usize = 60;
 
-/// Part of a facet that points may move along it before the finest level is made anew: stiff contact feels it. Tuned.
+/// Part of a facet that points may move along it before the finest level is made anew: stiff contact feels it. With 0.009 and 0.09 the example `rough-block` has
+/// the same digits.
 const FINEST_LEVEL_DRIFT: f64 = 0.03;
 
-/// The same where the iteration has become slow. Tuned.
+/// The same where the iteration has become slow: a level that is made anew although nothing moved does not help. With 1e-4 and
+/// 1e-2 the tests of multigrid pass.
 const SLOW_DRIFT: f64 = 1e-3;
 
 /// A hierarchy that outlives the state it was made at.

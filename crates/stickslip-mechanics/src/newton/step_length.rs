@@ -7,7 +7,8 @@ use crate::system::{Assembler, Cause, StepFailure};
 /// Iterations in which points find their status: a step may make matters much worse, and it is too early to say that nothing is gained.
 const EARLY: usize = 4;
 
-/// Factor by which a step may multiply the residual once points chatter: every step has to gain a little. Tuned.
+/// Factor by which a step may multiply the residual once points chatter: every step has to gain a little. With 0.9 and 0.999 all short cases (see
+/// [`tolerance`](crate::tolerance)) end as they do and keep their expected values, within 0.3 % of the same number of iterations.
 const LEAST_GAIN: f64 = 0.99;
 
 const BACK: usize = 3;

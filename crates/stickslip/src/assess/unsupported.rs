@@ -5,12 +5,12 @@ use super::view::View;
 use crate::contact::look;
 use crate::error::RunError;
 use crate::model::rigid::drivers::named;
-use crate::model::rigid::held::NO_PART;
 use crate::model::rigid::modes::modes;
 use crate::model::rigid::{drivers, free_bodies, held};
 use crate::number::figure;
 use crate::system::StepFailure;
 use crate::time::Trial;
+use crate::tolerance::NEGLIGIBLE;
 
 /// What to do about a body that has lost its hold, and about one that waits for contact.
 const LOST: &str = "no equilibrium was found beyond this: lower what drives the body or raise friction, support the motion or hold it by weak \
@@ -31,7 +31,7 @@ pub(crate) fn refuse_rigid_modes(view: &View) -> Option<(Finding, RunError)> {
         let mut parts = all
             .iter()
             .zip(&motion)
-            .filter(|(_, part)| part.abs() > NO_PART);
+            .filter(|(_, part)| part.abs() > NEGLIGIBLE);
         if driven || !parts.all(|(mode, _)| view.solver.floating.knows(mode.body)) {
             refused.push((motion, push, driven));
         }
@@ -77,7 +77,7 @@ pub(crate) fn refuse_rigid_modes(view: &View) -> Option<(Finding, RunError)> {
     let moved = refused
         .iter()
         .flat_map(|(motion, ..)| all.iter().zip(motion));
-    let moved = moved.filter(|(_, part)| part.abs() > NO_PART);
+    let moved = moved.filter(|(_, part)| part.abs() > NEGLIGIBLE);
     let moved: Vec<String> = moved
         .map(|(mode, _)| view.model.bodies[mode.body].name.clone())
         .collect();

@@ -28,9 +28,6 @@ use crate::solve::inertia::Inertia;
 use crate::system::{Stage, StepFailure};
 use crate::tolerance::ROUNDING;
 
-/// What is left of the velocity at pressed points, relative to the fastest dof, that is rounding. Tuned.
-const NO_VELOCITY: f64 = 1e-13;
-
 /// Whether contact is an impulse over an increment: of masses alone, with what does not give way and does not move.
 pub(super) fn is_impulse(
     model: &Model,
@@ -104,7 +101,7 @@ pub(super) fn stop(
     let (mut direction, mut square) = (rest.clone(), start);
     let before = inertia.kinetic_energy(v);
     let fastest = v.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let rounding = NO_VELOCITY * NO_VELOCITY * fastest * fastest * pressed.len() as f64;
+    let rounding = ROUNDING * ROUNDING * fastest * fastest * pressed.len() as f64;
     // What is left of the velocity at pressed points, relative to what there was.
     let enough = rounding.max(ROUNDING * ROUNDING * start);
     let mut best = (square, v.clone());

@@ -2,16 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use super::quadratic::{Eigen, order};
+use super::quadratic::{Eigen, KEPT_RESIDUAL, MODE_RESIDUAL, order};
 use super::reduced::Reduced;
 use crate::linear::{Complex, DenseLu, Krylov, arnoldi, eigenvalues, general, sums};
 use crate::math::vector::dot_in_fours as dot;
 
 /// Companion forms above this size are looked at by the method of Arnoldi.
 const LARGE_COMPANION: usize = 240;
-
-/// Estimate of the residual at which that method has found a mode. Tuned.
-const COMPANION_RESIDUAL: f64 = 1e-12;
 
 /// How many modes, up to which frequency.
 pub(crate) type Asked = (usize, f64);
@@ -62,7 +59,7 @@ fn largest(reduced: &Reduced, (count, to): Asked) -> Vec<(Complex, Vec<Complex>)
     let enough = |values: &[(Complex, f64)]| -> bool {
         let first = values
             .iter()
-            .take_while(|(_, r)| *r <= COMPANION_RESIDUAL)
+            .take_while(|(_, r)| *r <= MODE_RESIDUAL)
             .count();
         first >= count || values[..first].iter().any(|(z, _)| far(z))
     };
@@ -73,13 +70,11 @@ fn largest(reduced: &Reduced, (count, to): Asked) -> Vec<(Complex, Vec<Complex>)
         apply: &mut apply,
     };
     let found = arnoldi(&mut krylov, n, &enough).into_iter();
-    let found = found
-        .filter(|f| f.residual <= 1e3 * COMPANION_RESIDUAL)
-        .map(|found| {
-            let [re, im] = found.vector;
-            let vector = re.into_iter().zip(im).map(|(re, im)| [re, im]);
-            (found.value, vector.collect())
-        });
+    let found = found.filter(|f| f.residual <= KEPT_RESIDUAL).map(|found| {
+        let [re, im] = found.vector;
+        let vector = re.into_iter().zip(im).map(|(re, im)| [re, im]);
+        (found.value, vector.collect())
+    });
     found.collect()
 }
 

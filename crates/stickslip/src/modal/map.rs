@@ -27,19 +27,15 @@ use crate::tolerance::NEGLIGIBLE;
 /// Rounds in which what modes leave open is added, at most.
 const ROUNDS: usize = 40;
 
-/// Estimate of what modes leave open in the equations of all dofs that is good enough. Eigenvalues are better by what left vectors, which
-/// the space does not contain, have beside it. Tuned.
-const GOOD_ESTIMATE: f64 = 1e-6;
-
 /// So many critical factors are told in notes.
 const TOLD_FACTORS: usize = 4;
 
 /// Companion forms above this size are worth a smaller space.
 const MANY: usize = 160;
 
-/// What modes between those of which a smaller space is made may leave open in the larger one. Tuned.
-const LEFT_OPEN: f64 = 1e-7;
-/// Part of a mode that counts as new beside others. Tuned.
+/// What modes between those of which a smaller space is made may leave open in the larger one: a tenth of what the larger one leaves open itself.
+const LEFT_OPEN: f64 = 0.1 * NEGLIGIBLE;
+/// Part of a mode that counts as new beside others, so that what a space of them lacks is less than may be left open.
 const NEW_PART: f64 = 0.1 * LEFT_OPEN;
 
 /// What changes over a map.
@@ -122,12 +118,13 @@ pub(crate) fn space(
     let images = images(shifted, &block, solves);
     reduced.grow(shifted, &damped, images);
     let mut estimate = Estimate::new(shifted, solves);
+    // Modes may leave a negligible part of the equations of all dofs open. Eigenvalues are better by what left vectors, which the space does not contain, have beside it.
     // More displacements leave less open: who was good is not asked again, and who was not is when nothing that is known is worse.
     let mut known = vec![f64::INFINITY; tried.len()];
     for _ in 0..ROUNDS {
         estimate.take(&reduced);
         let worst = (0..tried.len()).max_by(|a, b| known[*a].total_cmp(&known[*b]));
-        let Some(worst) = worst.filter(|k| known[*k] > GOOD_ESTIMATE) else {
+        let Some(worst) = worst.filter(|k| known[*k] > NEGLIGIBLE) else {
             break;
         };
         over.set(tried[worst], &mut reduced);
@@ -137,7 +134,7 @@ pub(crate) fn space(
         let bad = modes
             .into_iter()
             .zip(open)
-            .filter(|(_, open)| open.is_nan() || *open > GOOD_ESTIMATE);
+            .filter(|(_, open)| open.is_nan() || *open > NEGLIGIBLE);
         let bad = lifted(&reduced.basis, bad.map(|(mode, _)| mode).collect());
         let (_, rests) = residuals(shifted, &bad, over.rub(), solves);
         if !rests.is_empty() && reduced.grow(shifted, &damped, rests).is_empty() {

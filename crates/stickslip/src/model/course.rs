@@ -6,7 +6,8 @@ use crate::math::vector::norm;
 const REACH: usize = 2;
 
 /// Part of the way of an increment by which it may bend away from a straight line and still be expected to go on bending. Where points
-/// begin to slip or a load turns, the last two increments say nothing of the next, and a straight line is the safer guess. Tuned.
+/// begin to slip or a load turns, the last two increments say nothing of the next, and a straight line is the safer guess.
+/// With 0.03 and 0.3 all short cases (see [`tolerance`](crate::tolerance)) keep their expected values, within 0.5 % of the same number of iterations.
 const LARGEST_BEND: f64 = 0.1;
 
 /// The last increments of a quasi-static step, as long as what drives them goes on as it did.

@@ -6,7 +6,8 @@ use super::history::{AMPLITUDE, PHASE, REST};
 use crate::io::csv::Table;
 use crate::model::kick::Growth;
 
-/// Highest frequency of a spectrum, relative to that of the mode. Tuned.
+/// Highest frequency of a spectrum, relative to that of the mode: a triangle, which sticking makes of a swing, has a hundredth of its amplitude there. It
+/// decides what is written, and no result.
 const HARMONICS: f64 = 10.0;
 
 /// Most rows of a spectrum.

@@ -25,14 +25,15 @@ use crate::number::digits;
 use crate::results::observer::{Event, Observer};
 use crate::tolerance::SAME;
 
-/// The error that is aimed at, over the one that is allowed. Tuned.
+/// The error that is aimed at, over the one that is allowed: one that is missed by a quarter costs no jump. With 0.24 and 2.4 the wear of the fretting contact
+/// in partial slip, `fretting::partial_slip_wears_until_only_what_sticks_carries`, stays within what was asked for.
 const SAFETY: f64 = 0.8;
-/// How much longer a jump is at most than the one before. Tuned.
+/// How much longer a jump is at most than the one before, so that a lucky one does not lead far. With 1.2 and 9 the same test passes.
 const JUMP_GROWTH: f64 = 3.0;
 
 /// Fewest cycles of a jump: as a whole and in two halves it costs three.
 const FEWEST: usize = 4;
-/// Cycles that a jump may always be tried with, however short the one before. Tuned.
+/// Cycles that a jump may always be tried with, however short the one before: twice the fewest. With 3.2 and 24 the same test passes.
 const ALWAYS_TRIED: f64 = 8.0;
 
 fn chosen(run: &Run) -> Option<(ChosenJump, f64, usize)> {

@@ -13,15 +13,17 @@ const DENSE_RATE: f64 = 3e10;
 /// Entries of a matrix that memory delivers in a second.
 const MEMORY_RATE: f64 = 1.2e9;
 
-/// Newton iterations of a quasi-static and of a dynamic increment. Tuned.
+/// Newton iterations of a quasi-static and of a dynamic increment. In the tested examples of more than four increments they are 0.9 to 9.3, with a mean of 4.5,
+/// and up to 3.0, with a mean of 1.2. With twice and half of these values 116 short
+/// cases (see [`tolerance`](crate::tolerance)) have the same digits but for one, which half of them solves by the sparse matrix.
 const NEWTON: [f64; 2] = [2.5, 1.5];
-/// Krylov iterations of a Newton iteration of condensed bodies. Tuned.
+/// Krylov iterations of a Newton iteration of condensed bodies: 0.2 to 9.8 in the same examples, with a mean of 2.4.
 const KRYLOV_ITERATIONS: f64 = 6.0;
 /// Newton iterations of a quasi-static increment in which bodies turn on axles, as their contact goes on to other points in each: 5.6 and 4.9 in the examples `gear-pair` and
 /// `geneva-drive`, 6.5 in `rolling-wheel` and `bentall-johnson`.
 const NEWTON_TURNING: f64 = 6.0;
 
-/// Newton iterations that one factor of the gaps serves. Tuned.
+/// Newton iterations that one factor of the gaps serves: it is kept while points keep their status.
 const NEWTON_A_FACTOR: f64 = 6.0;
 
 /// Krylov iterations of a Newton iteration with the sparse matrix: press-and-slide in slip took 7, and a slab with its whole face in

@@ -2,7 +2,8 @@
 
 use super::blocks::Block;
 
-/// Factor by which the largest eigenvalue may exceed its estimate, which comes from below. Tuned.
+/// Factor by which the largest eigenvalue may exceed its estimate, which comes from below: ten steps of Lanczos' method are within a tenth of it in the test
+/// below. With 0.9 to 1.4 in its place the example `rough-block` takes 25 or 26 iterations and keeps its expected values.
 const ESTIMATE_MARGIN: f64 = 1.1;
 
 /// The product of a matrix with a vector: what to multiply, and the result.

@@ -71,7 +71,8 @@ impl Cycle {
     }
 }
 
-/// Times of stick or of a swing over each other from which on one of them needs increments that the other does not. Tuned.
+/// Times of stick or of a swing over each other from which on one of them needs increments that the other does not: the
+/// longer one of 200 periods takes 60 000 increments of the other.
 const UNEVEN_TIMES: f64 = 200.0;
 
 /// The problem and what is expected of it.

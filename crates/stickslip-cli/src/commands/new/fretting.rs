@@ -43,7 +43,7 @@ pub struct Arguments {
 
 const TEMPLATE: &str = include_str!("fretting.template");
 
-/// Lines of equal cells up to which a mesh is a matter of minutes. Tuned.
+/// Lines of equal cells up to which a mesh is a matter of minutes: the surface has 800 small cells then.
 const FINE_CELLS: f64 = 400.0;
 
 /// What is expected of the whole test.

@@ -4,7 +4,7 @@ use super::written::number;
 use crate::print;
 use crate::style::WIDTH;
 
-/// Size of a cell over that of its neighbour nearer to the contact. Tuned.
+/// Size of a cell over that of its neighbour nearer to the contact: ten times the size after nine cells.
 pub const CELL_GROWTH: f64 = 1.3;
 
 /// Distances from the contact: cells of the size `finest` out to `fine`, then growing ones, to `last` exactly.

@@ -14,7 +14,8 @@ use crate::contact::surface::ContactPoint;
 use crate::math::{Vec3, dot, mat_vec};
 
 /// Cosine of the angle up to which a surface looks where it looked in the reference configuration, for finding facets that look back. It is
-/// an angle of 18 degrees. Tuned.
+/// an angle of 18 degrees. Where facets are looked for in the turned direction from the first, 57 of 61 short cases (see [`tolerance`](crate::tolerance)) have
+/// the same digits, and all the same history.
 const UNTURNED_COSINE: f64 = 0.95;
 
 /// Searches anew when the points have moved so far that a nearer facet might be missing from the candidates.

@@ -12,10 +12,12 @@ use crate::contact::response::Status;
 use crate::math::{Vec3, add, add_scaled, dot, norm, scale, sub};
 use crate::system::Stage;
 
-/// Part of the increment before its end over which the velocity of an obstacle is taken. Tuned.
+/// Part of the increment before its end over which the velocity of an obstacle is taken: a difference, wrong by half of this part of what the velocity changes
+/// by, and by a machine epsilon over it. Between 3e-5 and 3e-4 all short cases (see [`tolerance`](crate::tolerance)) have the same digits.
 const VELOCITY_STEP: f64 = 1e-4;
 
-/// Slip that moves a point by less than this part of what its cell yields under the shear has no direction to speak of. Tuned.
+/// Slip that moves a point by less than this part of what its cell yields under the shear has no direction to speak of.
+/// Between 0.003 and 0.03 all short cases have the same digits.
 const NO_SLIP_DIRECTION: f64 = 1e-2;
 
 /// Judges the last evaluation at the end of an increment, while the history is still that of its start. A point that slips has to carry its

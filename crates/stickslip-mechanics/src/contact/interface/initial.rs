@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::history::Origin;
+use crate::tolerance::NEGLIGIBLE;
 
 /// Treatment of initial gaps and overlaps of the meshes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -56,8 +57,8 @@ impl Within {
 /// How near a point has to be to be moved or to count as closed, if nothing else is said.
 pub const CLOSE: Within = Within::Fraction(0.1);
 
-/// Gap relative to the cell beneath up to which a point counts as touching at the very start. Tuned.
-pub(in crate::contact) const TOUCHING: f64 = 1e-6;
+/// Gap relative to the cell beneath up to which a point counts as touching: one that makes no difference to a result.
+pub(in crate::contact) const TOUCHING: f64 = NEGLIGIBLE;
 
 /// How near tied surfaces have to be to be glued, if nothing else is said.
 pub const GLUE: Within = Within::Fraction(0.5);

@@ -31,7 +31,8 @@ impl TimeOfImpact {
     }
 }
 
-/// Part of the gap at which a point that just touches is given a stiffness. Tuned.
+/// Part of the largest gap of points that touch at which bodies are set down: half of it, so that rounding takes them neither into each other nor away.
+/// Between 0.15 and 0.95 all short cases (see [`tolerance`](crate::tolerance)) have the same digits.
 const IMPACT_GAP: f64 = 0.5;
 
 /// Velocity of approach, relative to the largest velocity, below which surfaces slide past each other. What is left is rounding of the

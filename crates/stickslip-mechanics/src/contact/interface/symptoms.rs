@@ -13,14 +13,15 @@ use crate::system::{Culprit, Evidence, Tally};
 /// Most culprits of one interface.
 const MOST_CULPRITS: usize = 10;
 
-/// Slip over an increment, relative to the facet, that is too large: such a point is a culprit although it keeps its status. Tuned; it
-/// decides what is said, and no result.
+/// Slip over an increment, relative to the facet, that is too large: such a point is a culprit although it keeps its status: one
+/// that has left the half of a facet on which it began. It decides what is said, and no result.
 pub const LARGE_SLIP: f64 = 0.5;
 
 /// Halvings by which a kink of the normal law is looked for.
 const KINK_HALVINGS: usize = 40;
 
-/// Ratio of slopes that counts as a kink. Tuned; it decides what is said, and no result.
+/// Ratio of slopes that counts as a kink: a smooth law is halved until its slopes agree, one with a kink keeps their ratio. It decides what is said, and no
+/// result.
 const SLOPE_RATIO_OF_KINK: f64 = 4.0;
 
 /// An interface in the present attempt.

@@ -6,7 +6,8 @@ use crate::contact::interface::view::ContactView;
 use crate::contact::surface::{ContactPoint, Facet};
 use crate::math::{Vec3, add, add_scaled, distance, dot, inverse, norm, scale, sub};
 
-/// How much farther than the nearest of its face a quadrature point may be and still count as beside another. Tuned.
+/// How much farther than the nearest of its face a quadrature point may be and still count as beside another: less
+/// than the root of two, as far as those across a square are.
 const BESIDE_NEAREST: f64 = 1.3;
 
 /// The points beside each point of a secondary surface with these facets and reference coordinates, in order.

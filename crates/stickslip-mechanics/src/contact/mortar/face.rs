@@ -65,7 +65,8 @@ impl Mortar {
 }
 
 /// Cosine of the angle between the normals that two faces have at a node from which on they meet at an edge of the body: normals are
-/// averaged where the surface is smooth. It is an angle of 2.6 degrees. Tuned.
+/// averaged where the surface is smooth. It is an angle of 2.6 degrees; with 0.8 and with 8
+/// degrees all short cases (see [`tolerance`](crate::tolerance)) have the same digits.
 const SMOOTH_COSINE: f64 = 0.999;
 
 /// Finds out which edges are shared with a face that goes smoothly on.

@@ -5,13 +5,11 @@ use super::dual::positive;
 use super::face::{FACE_NODES, Face};
 use super::rim::Rim;
 use crate::contact::projection::{FARTHEST, Patch};
+use crate::contact::walls::OPPOSED_COSINE;
 use crate::math::{
     Mat3, Vec3, add_scaled, cross, dot, inverse, mat_vec, norm, normalize, scale, sub,
 };
 use crate::shape::ElementKind;
-
-/// Cosine of the angle by which a facet has to look back at a face. Tuned.
-const LEAST_FACING: f64 = 0.1;
 
 /// Steps of Newton's method for the place where a ray meets a facet.
 const ITERATIONS: usize = 20;
@@ -228,7 +226,7 @@ impl View<'_> {
         let beyond = beyond(gap * facing, m, wall.depth)
             || beyond(gap, scale(-1.0, normal), self.face.depth);
         // At a single place of a curved facet half of the cosine is enough.
-        if facing < 0.5 * LEAST_FACING || beyond {
+        if facing < 0.5 * OPPOSED_COSINE || beyond {
             return;
         }
         let mut positives = n;
@@ -257,5 +255,5 @@ impl View<'_> {
 pub(super) fn looks_back(facet: &Patch, normal: Vec3) -> bool {
     let [s, t, _] = facet.kind.centre();
     let (_, a) = facet.at([s, t]);
-    normalize(cross(a[0], a[1])).is_some_and(|m| dot(m, normal) < -LEAST_FACING)
+    normalize(cross(a[0], a[1])).is_some_and(|m| dot(m, normal) < -OPPOSED_COSINE)
 }

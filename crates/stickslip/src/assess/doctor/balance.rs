@@ -10,11 +10,9 @@ use crate::math::vector;
 use crate::model::rigid::balance::{Balance, EXACT_REST, UNMOVED};
 use crate::model::rigid::drivers;
 use crate::model::rigid::drivers::named;
-use crate::model::rigid::held::{NO_PART, Unheld};
+use crate::model::rigid::held::Unheld;
 use crate::number::digits;
-
-/// Part by which friction is widened, as points move and surfaces bend a little, or narrowed where loads that come to its limit are looked for. Tuned.
-const FRICTION_MARGIN: f64 = 1e-3;
+use crate::tolerance::NEGLIGIBLE;
 
 /// Halvings by which a time is found.
 const HALVINGS: usize = 20;
@@ -23,12 +21,7 @@ const HALVINGS: usize = 20;
 pub(crate) fn refuse_unbalanced(view: &View, from: f64, to: f64) -> Option<(Finding, RunError)> {
     let balance = Balance::new(view, to)?;
     let at_end = balance.loads(view, to);
-    // Of the loads twice the margin may be left, for the same reason.
-    let rest = balance.rest(
-        &at_end,
-        |mu| mu * (1.0 + FRICTION_MARGIN) + FRICTION_MARGIN,
-        2.0 * FRICTION_MARGIN,
-    )?;
+    let rest = balance.rest(&at_end, |mu| mu * (1.0 + UNMOVED) + UNMOVED, 2.0 * UNMOVED)?;
     let (mut good, mut bad) = (from, to);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (good + bad);
@@ -55,7 +48,7 @@ pub(super) fn unbalanced(view: &View, t: f64) -> Option<Finding> {
 
 /// The same of loads that come to the limit of friction, where nothing is left to hold a body.
 pub(super) fn at_limit(view: &View, t: f64) -> Option<Finding> {
-    beyond(view, t, FRICTION_MARGIN)
+    beyond(view, t, UNMOVED)
 }
 
 /// Of friction this part is not counted on.
@@ -110,7 +103,8 @@ impl<'a> Unbalanced<'a> {
         let index = view.model.bodies.iter().position(|b| b.name == body);
         let wanted = balance.least_friction(&balance.loads(view, t));
         // What no friction would hold, and turns, is pressed beside what it lies on.
-        let mut moving = (balance.all.iter().zip(&motion)).filter(|(_, part)| part.abs() > NO_PART);
+        let mut moving =
+            (balance.all.iter().zip(&motion)).filter(|(_, part)| part.abs() > NEGLIGIBLE);
         let turns = moving.any(|(mode, _)| mode.name.starts_with("rotation"));
         Unbalanced {
             push: drivers::push(view, &balance.all, &motion, t),
@@ -173,7 +167,7 @@ impl<'a> Unbalanced<'a> {
     /// Supports and loads of the step before that held the bodies.
     fn gone(&self) -> Vec<Gone> {
         let moved = self.all.all.iter().zip(&self.motion);
-        let moved = moved.filter(|(_, part)| part.abs() > NO_PART);
+        let moved = moved.filter(|(_, part)| part.abs() > NEGLIGIBLE);
         let name = |body: usize| self.view.model.bodies[body].name.clone();
         let moved: Vec<String> = moved.map(|(mode, _)| name(mode.body)).collect();
         let_go(self.view, &moved)

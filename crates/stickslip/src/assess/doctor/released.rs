@@ -9,9 +9,9 @@ use super::suspect::Suspect;
 use crate::assess::view::View;
 use crate::model::definition::{Body, Model, Step};
 use crate::model::rigid::held;
-use crate::model::rigid::held::NO_PART;
 use crate::model::rigid::modes::{Mode, modes};
 use crate::system::{Course, Schedule};
+use crate::tolerance::NEGLIGIBLE;
 
 /// What a step leaves out: its kind, its name, and the body.
 struct Dropped<'a> {
@@ -136,7 +136,7 @@ fn free(view: &View, modes: &[Mode], t: f64) -> BTreeMap<usize, Motions> {
     for unheld in held::unheld(view, t, modes, false) {
         let mut moved = BTreeSet::new();
         for (mode, part) in modes.iter().zip(unheld) {
-            if part.abs() > NO_PART {
+            if part.abs() > NEGLIGIBLE {
                 let motions = out.entry(mode.body).or_default();
                 motions.names.insert(mode.name.clone());
                 if moved.insert(mode.body) {

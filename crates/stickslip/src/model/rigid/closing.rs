@@ -4,7 +4,6 @@ use super::super::contact::Contact;
 use super::super::definition::Model;
 use super::super::frame::Frame;
 use super::free_bodies::FreeBody;
-use super::held::NO_RESISTANCE;
 use super::null_space_below;
 use crate::contact::interface::{Conditions, meeting};
 use crate::math::{Vec3, add, add_scaled, dot, norm, scale};
@@ -201,7 +200,7 @@ fn common(members: &[&FreeBody]) -> Vec<Vec3> {
             }
         }
     }
-    let free = null_space_below(&held, NO_RESISTANCE).into_iter();
+    let free = null_space_below(&held, SAME).into_iter();
     free.map(|v| [v[0], v[1], v[2]]).collect()
 }
 

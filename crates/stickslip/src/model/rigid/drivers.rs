@@ -1,14 +1,12 @@
 //! What drives an unconstrained motion: the loads, supports and obstacles behind it, by name.
 
 use super::super::scene::Scene;
-use super::held::{NO_PART, Unheld};
+use super::held::Unheld;
 use super::modes::{Mode, modes};
 use crate::contact::interface::{Interface, Primary};
 use crate::model::rigid::held;
 use crate::number::figure;
-
-/// Force along a motion, relative to the sum of its parts, that is rounding. Tuned.
-const NO_FORCE_ALONG: f64 = 1e-8;
+use crate::tolerance::{NEGLIGIBLE, SAME};
 
 /// Most names in a sentence.
 const NAMES_A_SENTENCE: usize = 3;
@@ -58,7 +56,7 @@ pub(crate) fn push(scene: &Scene, all: &[Mode], motion: &Unheld, t: f64) -> Push
     let parts: Vec<(&Mode, f64)> = all.iter().zip(motion.iter().copied()).collect();
     let parts: Vec<_> = parts
         .into_iter()
-        .filter(|(_, c)| c.abs() > NO_PART)
+        .filter(|(_, c)| c.abs() > NEGLIGIBLE)
         .collect();
     let mut push = Push {
         total: 0.0,
@@ -125,13 +123,13 @@ pub(crate) fn drivers(scene: &Scene, body: usize, t: f64) -> Vec<Driver> {
         if !all
             .iter()
             .zip(&motion)
-            .any(|(m, c)| m.body == body && c.abs() > NO_PART)
+            .any(|(m, c)| m.body == body && c.abs() > NEGLIGIBLE)
         {
             continue;
         }
         let push = push(scene, &all, &motion, t);
         for (name, force) in push.each {
-            if force.abs() <= NO_FORCE_ALONG * push.size {
+            if force.abs() <= SAME * push.size {
                 continue;
             }
             match found.iter_mut().find(|(n, _)| *n == name) {
@@ -233,7 +231,7 @@ fn movers(scene: &Scene, body: usize, t: f64) -> Vec<Driver> {
 impl Push {
     /// Whether it is more than rounding.
     pub fn is_felt(&self) -> bool {
-        self.total.abs() > NO_FORCE_ALONG * self.size
+        self.total.abs() > SAME * self.size
     }
 
     /// The loads that push the way they do together, the largest first.

@@ -4,7 +4,7 @@ use super::super::contact::Contact;
 use super::super::definition::{Model, Reference};
 use super::super::frame::ContactMemory;
 use super::super::scene::Scene;
-use super::held::{NO_PART, NO_RESISTANCE, Resisted, directions, plain};
+use super::held::{Resisted, directions, plain};
 use super::modes::{BEYOND_CUT, Mode, centre, modes, motions, shift_and_turn};
 use super::{null_space, null_space_below};
 use crate::body::couplings::Row;
@@ -12,6 +12,7 @@ use crate::body::{RigidMode, rigid_modes};
 use crate::contact::interface::Interface;
 use crate::contact::look;
 use crate::math::{Vec3, add, cross, sub};
+use crate::tolerance::{NEGLIGIBLE, SAME};
 
 /// A body that supports and springs leave free to move, with those that ties make one with it.
 #[derive(Clone, crate::keep::Keep)]
@@ -184,13 +185,13 @@ fn free(
     gram: &[Vec<f64>],
     modes: &[Mode],
 ) -> Option<FreeBody> {
-    let (mut unheld, none) = null_space(gram, NO_RESISTANCE);
+    let (mut unheld, none) = null_space(gram, SAME);
     if group.len() > 1 {
         unheld = plain(unheld);
     }
     let moves = |b: usize, motion: &Vec<f64>| {
         let mut both = motion.iter().zip(parts);
-        both.any(|(c, part)| modes[part.mode].body == b && c.abs() > NO_PART)
+        both.any(|(c, part)| modes[part.mode].body == b && c.abs() > NEGLIGIBLE)
     };
     let moved = group.iter().copied();
     let bodies: Vec<usize> = moved

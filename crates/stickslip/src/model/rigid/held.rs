@@ -15,12 +15,6 @@ pub(crate) type Unheld = Vec<f64>;
 /// Most modes that are looked at together.
 const MOST_RIGID_MODES: usize = 120;
 
-/// Resistance to a motion, relative to the largest, up to which it is unconstrained. Tuned.
-pub(crate) const NO_RESISTANCE: f64 = 1e-10;
-
-/// Part of a motion below which a mode is no part of it. Tuned.
-pub(crate) const NO_PART: f64 = 1e-6;
-
 /// Points of an interface that are asked, about.
 const ASKED_POINTS: usize = 2000;
 
@@ -64,7 +58,7 @@ impl Resisted<'_> {
 
     /// The motions that it leaves free, with simple names.
     fn free(&self) -> Vec<Unheld> {
-        plain(null_space(&self.gram, NO_RESISTANCE).0)
+        plain(null_space(&self.gram, SAME).0)
     }
 
     /// Contact along `directions` at the points of an interface, as if all of them had come to touch.
@@ -248,7 +242,7 @@ mod tests {
         let mixed = vec![vec![c, s, 0.0, 0.0], vec![-s, c, 0.0, 0.0]];
         let simple = plain(mixed);
         for vector in &simple {
-            let parts = vector.iter().filter(|v| v.abs() > NO_PART).count();
+            let parts = vector.iter().filter(|v| v.abs() > SAME).count();
             assert_eq!(parts, 1, "{simple:?}");
         }
     }

@@ -12,9 +12,10 @@ use crate::contact::surface::{Facet, turns};
 use crate::number::{digits, figure};
 use crate::tolerance::SAME;
 
-/// Overlap relative to the cell beneath that is a mistake. Tuned; it decides what is said, and no result.
+/// Overlap relative to the cell beneath that is a mistake: it strains cells by half. Tests of planted defects pass with 0.15 and
+/// 0.95. It decides what is said, and no result.
 const DEEP_OVERLAP: f64 = 0.5;
-/// Overlap or gap relative to the cell beneath that is worth a word. Tuned; it decides what is said, and no result.
+/// Overlap or gap relative to the cell beneath that is worth a word: a strain of one in a hundred is beyond the yield of metals. It decides what is said, and no result.
 const SHALLOW_OVERLAP: f64 = 0.01;
 
 pub(super) fn check(

@@ -11,7 +11,8 @@ use crate::contact::look::FACING_COSINE;
 use crate::math::dot;
 use crate::number::figure;
 
-/// Part of the points of a body inside an obstacle from which the obstacle is inside out. Tuned; it decides what is said, and no result.
+/// Part of the points of a body inside an obstacle from which the obstacle is inside out: where most of a body is, it
+/// was meant to be. It decides what is said, and no result.
 const INSIDE_OUT: f64 = 0.5;
 
 pub(super) fn check(

@@ -13,7 +13,8 @@ use crate::model::scene::Scene;
 use crate::number::figure;
 
 /// Strain of a whole body from which nothing of a linear body can be trusted; loads that are spread over it strain it by half of what is
-/// counted. Tuned; it decides what is said, and no result.
+/// counted. Small strains are wrong by half of themselves: by a tenth. With 0.06 sound examples are
+/// blamed; tests of planted defects pass with 0.6. It decides what is said, and no result.
 pub(super) const LARGE_STRAIN: f64 = 0.2;
 
 fn finding(message: String) -> Finding {
