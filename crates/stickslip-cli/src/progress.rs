@@ -227,9 +227,7 @@ fn legend(analysis: &Analysis) -> String {
         [only] => format!("contact force of {}", only.name),
         _ => "largest contact force of an interface".to_string(),
     };
-    format!(
-        "its: Newton iterations; stick, slip, open: contact points; force: {force}; left: time to the end, once it is known"
-    )
+    format!("its: Newton iterations; stick, slip, open: contact points; force: {force}")
 }
 
 /// The largest force that an interface carries, of all interfaces.

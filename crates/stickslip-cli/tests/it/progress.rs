@@ -52,10 +52,11 @@ fn said(name: &str, more: &[&str], variables: &[(&str, &str)]) -> String {
 
 /// The whole of it: increments, then what came out.
 const SAID: &str = "\
+its: Newton iterations; stick, slip, open: contact points; force: contact force of base
 step                inc         time   its   stick    slip    open        force     left
-press                 1     0.333333     4       3       2       0      1.737e6        ?
-press                 2     0.666667     2       3       2       0      3.475e6        ?
-press                 3            1     2       3       2       0      5.212e6        ?
+press                 1     0.333333     4       3       2       0      1.737e6
+press                 2     0.666667     2       3       2       0      3.475e6
+press                 3            1     2       3       2       0      5.212e6
 done: 3 increments, 8 iterations, 0 cut-backs
 interface base at time 1, forces on its secondary
   peak pressure  139.4e6 at (0, 0), time 1; now 139.4e6

@@ -38,8 +38,32 @@ class PlotOptions(TypedDict, total=False):
     at: Union[str, tuple[Union[str, float], ...]]
     """Centre of the picture"""
 
+    mode: Union[str, int]
+    """Draw a mode shape or a harmonic response: its number in the last modal step, or STEP:MODE with the name or number of the step"""
+
+    animate: Literal["gif", "png"]
+    """Write an animation through all output times, or the phases of a mode: animated PNG or GIF"""
+
+    rate: int
+    """Pictures per second"""
+
+    regimes: Union[str, tuple[Union[str, float], ...]]
+    """Draw which runs of a sweep stick, slip partially and slide, over two axes: `amplitude,load`; the ends of their names suffice"""
+
+    stability: Union[str, tuple[Union[str, float], ...]]
+    """Draw in which runs of a sweep steady sliding is stable, flutters or diverges, over two axes, with the boundary from `sweep --critical`"""
+
+    coupling: str
+    """Draw mode coupling, frequencies and growth, over a column of a map (`pad.out/modes-2-map.csv --coupling mu`) or an axis of a sweep, a picture each"""
+
+    waterfall: bool
+    """Draw a waterfall of spectra over time and frequency: `pad.out/modes-3-waterfall.csv --waterfall`"""
+
     along: str
     """Draw pressure, shear and status along this interface: in 2D curves over the arc length, in 3D maps in plan or unrolled. With --field that field alone; in 2D with --time all a line for each time. CWEAR and CDISS of the opposite surface go into a second file (NAME-opposite.svg)"""
+
+    path: Union[str, tuple[Union[str, float], ...]]
+    """Draw the field along a straight line through the bodies, between two undeformed places: `0,0,0:10,0,0`. With --time all a line for each time; with -o NAME.csv a table"""
 
     arrows: Literal["yes", "no"]
     """Draw tractions as arrows in the colours of stick and slip. Default: yes for contact fields in 2D"""
@@ -62,20 +86,11 @@ class PlotOptions(TypedDict, total=False):
     history: Union[str, list[str]]
     """Plot these columns of history.csv instead of bodies"""
 
+    right: Union[str, list[str]]
+    """Plot these columns on a second vertical axis, at the right"""
+
     table: str
     """Take the columns from this table instead of history.csv, for example `modes-2-map.csv`. The picture gets its name"""
-
-    regimes: Union[str, tuple[Union[str, float], ...]]
-    """Draw which runs of a sweep stick, slip partially and slide, over two axes: `amplitude,load`; the ends of their names suffice"""
-
-    stability: Union[str, tuple[Union[str, float], ...]]
-    """Draw in which runs of a sweep steady sliding is stable, flutters or diverges, over two axes, with the boundary from `sweep --critical`"""
-
-    coupling: str
-    """Draw mode coupling, frequencies and growth, over a column of a map (`pad.out/modes-2-map.csv --coupling mu`) or an axis of a sweep, a picture each"""
-
-    waterfall: bool
-    """Draw a waterfall of spectra over time and frequency: `pad.out/modes-3-waterfall.csv --waterfall`"""
 
     against: str
     """The column of the horizontal axis"""

@@ -1910,6 +1910,21 @@ class Normal(Table):
         return Normal({"tabular": Table(locals())})
 
 
+class NormalRegion(Table):
+    """Facets by the direction in which they look.
+
+    Parameters
+    ----------
+    direction
+        The direction of the outward normal, of any length.
+    angle
+        Largest angle between the normal of a facet, at its middle, and the direction [degrees].
+    """
+
+    def __init__(self, *, direction: Numbers, angle: float | None = None) -> None:
+        super().__init__(locals())
+
+
 class Obstacle(Table):
     """[obstacle.NAME]: a rigid body that can be the primary of an interface.
 
@@ -2064,7 +2079,7 @@ class Probe(Table):
     point
         Undeformed coordinates; the nearest point of the mesh is taken.
     of
-        The body of the point; may be left out if there is only one.
+        The body of the point; that with the nearest point if not given. Where points of several bodies are equally near, it has to be given.
     """
 
     def __init__(self, *, point: Numbers, of: str | None = None) -> None:
@@ -2294,13 +2309,15 @@ class Set(Table):
         The points on a plane (in 2D: a line).
     ball
         The points in a ball (in 2D: a disc).
+    normal
+        The points of the boundary facets that look in a direction; where facets are wanted, these.
     numbers
         The points with these numbers of the mesh.
     union
         The points of other sets, `body.set` or names of [set.NAME].
     """
 
-    def __init__(self, *, of: str | None = None, tolerance: float | None = None, point: Numbers | None = None, box: BoxRegion | None = None, plane: PlaneRegion | None = None, ball: BallRegion | None = None, numbers: Numbers | None = None, union: Sequence[str] | None = None) -> None:
+    def __init__(self, *, of: str | None = None, tolerance: float | None = None, point: Numbers | None = None, box: BoxRegion | None = None, plane: PlaneRegion | None = None, ball: BallRegion | None = None, normal: NormalRegion | None = None, numbers: Numbers | None = None, union: Sequence[str] | None = None) -> None:
         super().__init__(locals())
 
 
