@@ -110,13 +110,20 @@ fn largest(results: &Results, frames: &[usize], grid: &Grid, skin: &Skin) -> Res
     Ok(largest)
 }
 
+/// What can be seen, the whole that it was cut from, and the axis and place below which cells are left.
+struct Skins {
+    skin: Skin,
+    whole: Skin,
+    cut: Option<(usize, f64)>,
+}
+
 /// What can be seen, and the whole that it was cut from.
 fn skins(
     results: &Results,
     wanted: &Picture,
     grid: &mut Grid,
     frame: usize,
-) -> Result<([Skin; 2], Option<(usize, f64)>), Error> {
+) -> Result<Skins, Error> {
     let whole = Skin::of(grid);
     let cut = wanted.cut.map(|plane| {
         let [low, high] = whole.bounds();
@@ -136,14 +143,14 @@ fn skins(
             },
         ));
     }
-    Ok(([skin, whole], cut))
+    Ok(Skins { skin, whole, cut })
 }
 
 impl<'a> Scene<'a> {
     /// Reads what is to be drawn at these times.
     pub fn new(results: &'a Results, wanted: &Picture, frames: &[usize]) -> Result<Self, Error> {
         let mut grid = results.grid(frames[0])?;
-        let ([skin, whole], cut) = skins(results, wanted, &mut grid, frames[0])?;
+        let Skins { skin, whole, cut } = skins(results, wanted, &mut grid, frames[0])?;
         let field = choose(results, &grid, wanted.field.as_deref())?;
         let sheets: Vec<Vec<Sheet>> = (frames.iter())
             .map(|&frame| results.sheets(frame))
