@@ -57,6 +57,13 @@ pub struct Arguments {
     /// Width and height in pixels.
     #[arg(long, value_name = "WxH", default_value = "1200x900", value_parser = size)]
     size: [u32; 2],
+    #[command(flatten)]
+    lines: Lines,
+}
+
+/// Columns of a table.
+#[derive(Debug, clap::Args)]
+struct Lines {
     /// Plot these columns of history.csv instead of bodies.
     #[arg(long, value_name = "COLUMN,...", value_delimiter = ',', conflicts_with_all = ["field", "view", "bodies", "range", "bands", "threshold", "apart", "loads"])]
     history: Vec<String>,
@@ -331,7 +338,7 @@ pub fn draw(arguments: &Arguments) -> Result<(Vec<PathBuf>, Vec<String>), Failur
     if let Some(interface) = arguments
         .along
         .as_ref()
-        .filter(|_| arguments.history.is_empty())
+        .filter(|_| arguments.lines.history.is_empty())
     {
         let wanted = Along {
             interface: interface.clone(),
@@ -353,7 +360,7 @@ pub fn draw(arguments: &Arguments) -> Result<(Vec<PathBuf>, Vec<String>), Failur
         let file = plot::path(&arguments.directory, output, &line, arguments.size)?;
         return Ok((vec![file], Vec::new()));
     }
-    if arguments.history.is_empty() {
+    if arguments.lines.history.is_empty() {
         let picture = Picture {
             field: arguments.framing.field.clone(),
             when: arguments.framing.time,
@@ -389,9 +396,9 @@ pub fn draw(arguments: &Arguments) -> Result<(Vec<PathBuf>, Vec<String>), Failur
     }
     let named = |names: &[String]| names.iter().filter(|n| !n.is_empty()).cloned().collect();
     let columns = Columns {
-        left: named(&arguments.history),
-        right: named(&arguments.right),
-        against: arguments.against.clone(),
+        left: named(&arguments.lines.history),
+        right: named(&arguments.lines.right),
+        against: arguments.lines.against.clone(),
         label: String::new(),
     };
     if columns.left.is_empty() {
@@ -402,7 +409,7 @@ pub fn draw(arguments: &Arguments) -> Result<(Vec<PathBuf>, Vec<String>), Failur
     }
     let directory = &arguments.directory;
     let size = arguments.size;
-    let file = match &arguments.table {
+    let file = match &arguments.lines.table {
         Some(name) => plot::table(directory, output, name, &columns, size)?,
         None => plot::columns(directory, output, &columns, size)?,
     };
