@@ -21,6 +21,9 @@ fi
 "$venv/bin/maturin" build --profile "$profile" --out "$target/wheels" --quiet "${fast[@]}"
 "$venv/bin/pip" install --quiet --disable-pip-version-check --force-reinstall --no-deps "$target"/wheels/stickslip-*.whl
 if [ "${2:-}" = write ]; then
+    # Twice: the page of the book is of the package that is installed, with the options that the first run has written.
+    "$venv/bin/python" written.py
+    cp python/stickslip/*.py "$("$venv/bin/python" -c 'import os, stickslip; print(os.path.dirname(stickslip.__file__))')"
     "$venv/bin/python" written.py
     "$venv/bin/pip" install --quiet --disable-pip-version-check nbclient ipykernel
     PATH=$venv/bin:$PATH exec "$venv/bin/python" notebooks/store.py
