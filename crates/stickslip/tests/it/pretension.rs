@@ -357,3 +357,29 @@ fn what_cannot_be_cut_or_drawn_is_said_at_its_key() {
         assert!(message.contains(key), "{key}: {message}");
     }
 }
+
+/// A bolt whose thread, the primary of a tie, reaches over the cut: the nut hangs on the part beyond the cut, and the plate holds the nut.
+#[test]
+fn a_thread_may_reach_over_the_cut() {
+    let text = r#"
+format = 1
+model.space = "plane-strain"
+body.bolt = { generate.rectangle = { to = [1, 10], cells = [1, 10] }, material = "m" }
+body.nut = { generate.rectangle = { from = [1, 8], to = [3, 9], cells = [2, 1] }, material = "m" }
+body.plate = { generate.rectangle = { from = [1.5, 6], to = [3, 8], cells = [2, 2] }, material = "m" }
+material.m.isotropic = { young = 1000.0, poisson = 0.0 }
+interface.thread = { secondary = "nut.left", primary = "bolt.right", tied = true }
+interface.seat = { secondary = "nut.bottom", primary = "plate.top", friction.coulomb = { mu = 0.3 } }
+support.head = { set = "bolt.bottom", x = 0, y = 0 }
+support.ground = { set = "plate.bottom", x = 0, y = 0 }
+pretension.tight = { of = "bolt", plane = { point = [0.5, 5], normal = [0, 1] } }
+[[step]]
+pretension.tight = { force = 1 }
+increments.fixed = 2
+"#;
+    let rows = record(text).increments;
+    let last = &rows.last().expect("a row").1;
+    // The nut bends a little, so that friction carries a part.
+    let carried = value(last, "seat.CFN2") + value(last, "seat.CFS2");
+    near(carried.abs(), 1.0, 1e-6);
+}

@@ -73,6 +73,20 @@ impl<'a> Opposite<'a> {
         (aside > NEGLIGIBLE * distance(x, edge)).then_some(edge)
     }
 
+    /// A node of the facet that lies nearest; `None` opposite an obstacle.
+    pub fn node_of(&self, nearest: &Nearest) -> Option<usize> {
+        match &self.interface.primary {
+            Primary::Facets(facets) => Some(self.interface.nodes[facets[nearest.facet].nodes[0]]),
+            Primary::Rigid(..) => None,
+        }
+    }
+
+    /// A node of the facet that lies nearest to a place; `None` where nothing does, or an obstacle.
+    pub fn facing(&mut self, x: Vec3) -> Option<usize> {
+        let nearest = self.nearest(x)?;
+        self.node_of(&nearest)
+    }
+
     /// What lies nearest to a place, whichever way it faces.
     pub fn nearest(&mut self, x: Vec3) -> Option<Nearest> {
         let facets = match &self.interface.primary {

@@ -8,7 +8,7 @@ use super::super::scene::Scene;
 use super::drivers;
 use super::held::{Unheld, unheld};
 use super::modes::{Mode, modes};
-use crate::contact::interface::{InterfaceDefinition, Primary};
+use crate::contact::interface::InterfaceDefinition;
 use crate::contact::law::friction::FrictionPoint;
 use crate::contact::look::{FACING_COSINE, Opposite};
 use crate::friction::cone::Cone;
@@ -110,10 +110,6 @@ impl Balance {
         interface: &InterfaceDefinition,
         t: f64,
     ) -> Option<f64> {
-        let facing = match &interface.primary {
-            Primary::Facets(facets) => Some(interface.nodes[facets.first()?.nodes[0]]),
-            Primary::Rigid(..) => None,
-        };
         let mu = largest_friction(interface)?;
         if interface.points.len() + self.spots.len() > MOST_POINTS_ASKED {
             return None;
@@ -134,6 +130,7 @@ impl Balance {
                 None => interface.place(point),
             };
             let own = interface.nodes[point.nodes[0]];
+            let facing = opposite.node_of(&nearest);
             let along = |d: Vec3| -> Vec<f64> {
                 let speed = |motion: &Unheld| -> f64 {
                     let parts = self.all.iter().zip(motion).filter(|(_, c)| **c != 0.0);

@@ -6,6 +6,7 @@ use super::modes::Mode;
 use super::null_space;
 use crate::contact::interface::{Interface, Primary};
 use crate::contact::look;
+use crate::contact::look::Opposite;
 use crate::math::{Vec3, dot, symmetric_eigen};
 use crate::tolerance::SAME;
 
@@ -65,11 +66,14 @@ impl Resisted<'_> {
     pub fn interface(&mut self, interface: &Interface, directions: &[Vec3]) {
         let model = self.model;
         let body_of = |point: usize| model.bodies.iter().position(|b| b.points.contains(&point));
-        let facing = match &interface.primary {
+        let first = match &interface.primary {
             Primary::Facets(facets) => facets.first().map(|f| interface.nodes[f.nodes[0]]),
             Primary::Rigid(..) => None,
         };
-        let theirs = facing.and_then(body_of);
+        let theirs = first.and_then(body_of);
+        // A surface may reach over the cut of a pretension: then what is opposite counts.
+        let cut = theirs.is_some_and(|b| !model.bodies[b].pieces.is_empty());
+        let mut opposite = cut.then(|| Opposite::new(interface, 0.0));
         let stride = interface.points.len().div_ceil(ASKED_POINTS).max(1);
         let asked: Vec<_> = interface.points.iter().step_by(stride).collect();
         let weight = 1.0 / asked.len().max(1) as f64;
@@ -80,6 +84,10 @@ impl Resisted<'_> {
                 continue;
             }
             let x = interface.place(point);
+            let nearest = opposite
+                .as_mut()
+                .and_then(|o| o.facing(point.position(&interface.reference)));
+            let facing = nearest.or(first);
             for &d in directions {
                 let each = self.modes.iter().enumerate();
                 let values = each.filter_map(|(i, m)| {
