@@ -53,24 +53,14 @@ pub fn picture(
     file: Option<&Path>,
     wanted: &Picture,
 ) -> Result<(Vec<PathBuf>, Vec<String>), Error> {
-    let results = opened(directory, wanted)?;
-    let file = file.map_or_else(|| directory.join("plot.png"), Path::to_path_buf);
-    let frames = chosen(&results, wanted.when, wanted.field.as_deref())?;
     // Before anything is read: a wrong ending or size is said at once.
-    canvas(&file, wanted.size)?;
-    let scene = scene::Scene::new(&results, wanted, &frames)?;
-    let mut written = Vec::new();
-    for &frame in &frames {
-        let file = match wanted.when {
-            When::All => numbered(&file, frame + 1),
-            _ => file.clone(),
-        };
+    canvas(file.unwrap_or(Path::new("plot.png")), wanted.size)?;
+    for_times(directory, file, wanted, &|scene, frame, file| {
         let mut canvas = canvas(&file, wanted.size)?;
         scene.draw(frame, wanted.size, canvas.as_mut())?;
         write_atomically(&file, &canvas.finish())?;
-        written.push(file);
-    }
-    Ok((written, scene.notes))
+        Ok(file)
+    })
 }
 
 /// Writes scripts that draw the pictures of the bodies with PyVista, beside them: `plot.py` for `plot.png`; returns the files written.
@@ -82,22 +72,35 @@ pub fn scripts(
     file: Option<&Path>,
     wanted: &Picture,
 ) -> Result<Vec<PathBuf>, Error> {
+    let written = for_times(directory, file, wanted, &|scene, frame, file| {
+        let file = file.with_extension("py");
+        let text = scene.script(frame, wanted, &file);
+        write_atomically(&file, text.as_bytes())?;
+        Ok(file)
+    });
+    written.map(|(files, _)| files)
+}
+
+/// Makes a file for each time of a picture, with the name of the picture, by `make`.
+fn for_times(
+    directory: &Path,
+    file: Option<&Path>,
+    wanted: &Picture,
+    make: &dyn Fn(&scene::Scene, usize, PathBuf) -> Result<PathBuf, Error>,
+) -> Result<(Vec<PathBuf>, Vec<String>), Error> {
     let results = opened(directory, wanted)?;
     let file = file.map_or_else(|| directory.join("plot.png"), Path::to_path_buf);
     let frames = chosen(&results, wanted.when, wanted.field.as_deref())?;
     let scene = scene::Scene::new(&results, wanted, &frames)?;
-    let mut written = Vec::new();
-    for &frame in &frames {
+    let written = frames.iter().map(|&frame| {
         let file = match wanted.when {
             When::All => numbered(&file, frame + 1),
             _ => file.clone(),
         };
-        let file = file.with_extension("py");
-        let text = scene.script(frame, wanted, &file);
-        write_atomically(&file, text.as_bytes())?;
-        written.push(file);
-    }
-    Ok(written)
+        make(&scene, frame, file)
+    });
+    let written = written.collect::<Result<_, Error>>()?;
+    Ok((written, scene.notes))
 }
 
 /// What the pictures of the bodies say, a time each: they are drawn from these.
@@ -208,14 +211,8 @@ pub fn path(
     line: &Line,
     size: [u32; 2],
 ) -> Result<PathBuf, Error> {
-    let results = Results::open(directory)?;
+    let results = opened(directory, &Picture::default())?;
     let file = file.map_or_else(|| directory.join("path.png"), Path::to_path_buf);
-    if results.frames.is_empty() {
-        return Err(fault(
-            directory,
-            "no fields were written: there is nothing to draw",
-        ));
-    }
     let table = path::table(&results, line)?;
     if along::is_table(&file) {
         stickslip::io::csv::write(&file, &table)?;
@@ -300,7 +297,7 @@ pub fn waterfall(table: &Path, file: Option<&Path>, size: [u32; 2]) -> Result<Pa
     map(table, file, &regimes::WATERFALL, SPECTRA, size)
 }
 
-/// How the modes of a step depend on what its map varies, as SVG: frequencies and growth over the coefficient of friction; none where there is no map.
+/// How the modes of a step depend on what its map varies, as SVG: frequencies and growth over the factor; none where there is no map.
 pub(crate) fn couplings(results: &Results, step: usize) -> Result<Vec<String>, Error> {
     let size = [1000, 520];
     let file = results.directory.join(format!("modes-{step}-map.csv"));

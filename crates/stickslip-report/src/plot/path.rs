@@ -50,8 +50,14 @@ pub fn table(results: &Results, line: &Line) -> Result<Table, Error> {
     let [from, to] = line.ends;
     let length = distance(from, to);
     let place = |k: usize| k as f64 / (PLACES - 1) as f64;
+    let near: Vec<(usize, [Vec3; 2])> = (0..grid.types.len())
+        .map(|cell| (cell, room_of(&grid, cell)))
+        .filter(|(_, [low, high])| {
+            (0..3).all(|c| from[c].max(to[c]) >= low[c] && from[c].min(to[c]) <= high[c])
+        })
+        .collect();
     let on_line: Vec<Option<Around>> = (0..PLACES)
-        .map(|k| around(&grid, add_scaled(from, place(k), sub(to, from))))
+        .map(|k| around(&grid, &near, add_scaled(from, place(k), sub(to, from))))
         .collect();
     if on_line.iter().all(Option::is_none) {
         return Err(fault(
@@ -80,22 +86,31 @@ pub fn table(results: &Results, line: &Line) -> Result<Table, Error> {
     Ok(table)
 }
 
-/// The points of the cell that a place is in, and their weights; `None` outside of all.
-fn around(grid: &Grid, x: Vec3) -> Option<Around> {
-    (0..grid.types.len()).find_map(|cell| {
-        let points = grid.cell(cell).iter().map(|&p| grid.points.points[p]);
-        let far = |c: usize| {
-            let [low, high] = points.clone().fold([f64::MAX, f64::MIN], |[low, high], p| {
-                [low.min(p[c]), high.max(p[c])]
-            });
-            // Quadratic cells may bulge beyond their nodes.
-            let room = 0.25 * (high - low);
-            x[c] < low - room - ROOM || x[c] > high + room + ROOM
-        };
-        if (0..3).any(far) {
+/// Lowest and highest coordinates that a cell may have; quadratic ones may bulge beyond their nodes.
+fn room_of(grid: &Grid, cell: usize) -> [Vec3; 2] {
+    let points = grid.cell(cell).iter().map(|&p| grid.points.points[p]);
+    let [low, high] = points.fold([[f64::MAX; 3], [f64::MIN; 3]], |[low, high], p| {
+        [0, 1].map(|end| {
+            std::array::from_fn(|c| match end {
+                0 => f64::min(low[c], p[c]),
+                _ => f64::max(high[c], p[c]),
+            })
+        })
+    });
+    let room = [0, 1, 2].map(|c| 0.25 * (high[c] - low[c]) + ROOM);
+    [
+        std::array::from_fn(|c| low[c] - room[c]),
+        std::array::from_fn(|c| high[c] + room[c]),
+    ]
+}
+
+/// The points of the cell that a place is in, of these cells, and their weights; `None` outside of all.
+fn around(grid: &Grid, cells: &[(usize, [Vec3; 2])], x: Vec3) -> Option<Around> {
+    cells.iter().find_map(|(cell, [low, high])| {
+        if (0..3).any(|c| x[c] < low[c] || x[c] > high[c]) {
             return None;
         }
-        let (kind, nodes) = grid.element(cell)?;
+        let (kind, nodes) = grid.element(*cell)?;
         let places: Vec<Vec3> = nodes.iter().map(|&p| grid.points.points[p]).collect();
         let weights = weights(kind, &places, x)?;
         Some(nodes.into_iter().zip(weights).collect())

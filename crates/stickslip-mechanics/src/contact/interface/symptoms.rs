@@ -13,8 +13,8 @@ use crate::system::{Culprit, Evidence, Tally};
 /// Most culprits of one interface.
 const MOST_CULPRITS: usize = 10;
 
-/// Slip over an increment, relative to the facet, that is too large: such a point is a culprit although it keeps its status: one
-/// that has left the half of a facet on which it began. It decides what is said, and no result.
+/// Slip over an increment, relative to the facet, above which a point is suspect though its status does not change: it has left the half of the facet on which
+/// it began. It decides what is said, and no result.
 pub const LARGE_SLIP: f64 = 0.5;
 
 /// Halvings by which a kink of the normal law is looked for.

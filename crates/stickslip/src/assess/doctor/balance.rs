@@ -21,7 +21,7 @@ const HALVINGS: usize = 20;
 pub(crate) fn refuse_unbalanced(view: &View, from: f64, to: f64) -> Option<(Finding, RunError)> {
     let balance = Balance::new(view, to)?;
     let at_end = balance.loads(view, to);
-    let rest = balance.rest(&at_end, |mu| mu * (1.0 + UNMOVED) + UNMOVED, 2.0 * UNMOVED)?;
+    let rest = balance.rest(&at_end, widened, 2.0 * UNMOVED)?;
     let (mut good, mut bad) = (from, to);
     for _ in 0..HALVINGS {
         let middle = 0.5 * (good + bad);
@@ -43,23 +43,28 @@ pub(crate) fn refuse_unbalanced(view: &View, from: f64, to: f64) -> Option<(Find
 
 /// Free bodies that contact cannot hold at a time: loads that it cannot balance, or none while it pushes bodies away.
 pub(super) fn unbalanced(view: &View, t: f64) -> Option<Finding> {
-    beyond(view, t, 0.0)
+    beyond(view, t, widened, 2.0 * UNMOVED)
 }
 
 /// The same of loads that come to the limit of friction, where nothing is left to hold a body.
 pub(super) fn at_limit(view: &View, t: f64) -> Option<Finding> {
-    beyond(view, t, UNMOVED)
+    beyond(view, t, |mu| mu * (1.0 - UNMOVED), EXACT_REST)
 }
 
-/// Of friction this part is not counted on.
-fn beyond(view: &View, t: f64, margin: f64) -> Option<Finding> {
+/// Friction with room for what points move and surfaces bend.
+fn widened(mu: f64) -> f64 {
+    mu * (1.0 + UNMOVED) + UNMOVED
+}
+
+/// Loads of which contact with this friction leaves more than the part `left`.
+fn beyond(view: &View, t: f64, friction: impl Fn(f64) -> f64, left: f64) -> Option<Finding> {
     let balance = Balance::new(view, t)?;
     let loads = balance.loads(view, t);
     if vector::norm(&loads) == 0.0 {
         let one_sided = balance.close && balance.is_one_sided();
         return one_sided.then(|| pushed_away(view, &balance));
     }
-    let rest = balance.rest(&loads, |mu| mu * (1.0 - margin), EXACT_REST)?;
+    let rest = balance.rest(&loads, friction, left)?;
     Some(Unbalanced::new(view, &balance, &rest, t).warn())
 }
 

@@ -30,17 +30,20 @@ pub(super) fn refuse(
                     continue;
                 }
                 let (point, component) = dofs.locate(entry.dof);
-                let of = match mesh.point_ids.get(point) {
-                    Some(id) => format!("node {id}"),
-                    None => "a reference point".to_string(),
+                let what = match mesh.point_ids.get(point) {
+                    Some(id) => format!(
+                        "displacements of node {id} in {}: {} and {}",
+                        ["x", "y", "z"][component],
+                        digits(was, 5),
+                        digits(value, 5)
+                    ),
+                    // Rotations are dofs of a reference point or rigid body, too, times a length.
+                    None => "motions of a reference point or rigid body".to_string(),
                 };
                 let message = format!(
-                    "supports {} and {} prescribe different displacements of {of} in {}: {} and {} at time {}",
+                    "supports {} and {} prescribe different {what} at time {}",
                     other.name,
                     support.name,
-                    ["x", "y", "z"][component],
-                    digits(was, 5),
-                    digits(value, 5),
                     digits(t, 5),
                 );
                 let key = format!("support.{}", support.name);
