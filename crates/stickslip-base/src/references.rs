@@ -17,6 +17,9 @@ macro_rules! references {
 }
 
 references! {
+    dieterich_1979: "J. H. Dieterich, Modeling of rock friction: 1. Experimental results and constitutive equations, Journal of Geophysical Research 84 (1979) 2161-2168.",
+    ruina_1983: "A. Ruina, Slip instability and state variable friction laws, Journal of Geophysical Research 88 (1983) 10359-10370.",
+    rice_2001: "J. R. Rice, N. Lapusta, K. Ranjith, Rate and state dependent friction and the stability of sliding between elastically deformable solids, Journal of the Mechanics and Physics of Solids 49 (2001) 1865-1898.",
     pop_1995: "N. Pop, A finite element method for frictional contact problems, Buletinul Științific al Universității din Baia Mare, Seria B, XI (1995) 89-104.",
     oden_martins_1985: "J. T. Oden, J. A. C. Martins, Models and computational methods for dynamic friction phenomena, Computer Methods in Applied Mechanics and Engineering 52 (1985) 527-634.",
     zavarise_1992: "G. Zavarise, P. Wriggers, E. Stein, B. A. Schrefler, Real contact mechanisms and finite element formulation: a coupled thermomechanical approach, International Journal for Numerical Methods in Engineering 35 (1992) 767-785.",

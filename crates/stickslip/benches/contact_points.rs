@@ -17,7 +17,7 @@ use std::time::Instant;
 
 use stickslip::contact::enforcement::{EnforcementModel, Penalty};
 use stickslip::contact::interface::{
-    Conditions, History, Initial, Interface, InterfaceDefinition, InterfaceMesh, Primary,
+    Conditions, Initial, Interface, InterfaceDefinition, InterfaceMesh, Primary,
 };
 use stickslip::contact::kinematics::{Convective, KinematicsModel, Pop1995, SmallSliding};
 use stickslip::contact::law::friction::{Coulomb, FrictionModel};
@@ -226,7 +226,7 @@ fn measure(name: &str, kind: ElementKind, bent: bool, kinematics: KinematicsMode
         rate: None,
         frames: None,
     };
-    let history = History::new(interface.points.len(), interface.laws.friction_law());
+    let history = interface.first_history();
     let conditions = Conditions::default();
     let mut interface = interface.force(&history, &conditions);
     let mut out = Assembler::new(interface.dofs.count());

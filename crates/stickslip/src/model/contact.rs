@@ -6,9 +6,7 @@ use super::capability::{Feature, Subject, limit};
 use super::definition::Step;
 use super::frame::{ContactMemory, Frame};
 use crate::body::couplings::{Couplings, CouplingsForce, CouplingsView, explicit, force};
-use crate::contact::interface::{
-    self, Conditions, ContactView, History, Interface, InterfaceForce,
-};
+use crate::contact::interface::{self, Conditions, ContactView, Interface, InterfaceForce};
 use crate::contact::look;
 use crate::system::{Force, Stage, State};
 
@@ -77,7 +75,7 @@ impl Contact {
     /// What they know before anything has happened, at a state.
     pub(crate) fn begin(&mut self, stage: &Stage) -> ContactMemory {
         let interfaces = self.interfaces.iter_mut().map(|interface| {
-            let mut history = History::new(interface.points.len(), interface.laws.friction_law());
+            let mut history = interface.first_history();
             interface::glue(interface, &mut history, stage);
             history
         });
@@ -154,7 +152,7 @@ impl Contact {
             let memory = Arc::make_mut(memory);
             let all = self.interfaces.iter().zip(&mut memory.interfaces);
             for (interface, history) in all.filter(|(i, _)| i.name == *name) {
-                history.begin_law(interface.laws.friction_law());
+                history.begin_law(&interface.places(), interface.laws.friction_law());
             }
         }
     }

@@ -385,6 +385,8 @@ pub struct Step {
     pub corners: Vec<f64>,
     /// Whether increments are of one given length.
     pub fixed: bool,
+    /// Largest relative change of the state variables of friction laws over an increment.
+    pub state_change: f64,
     /// How motion is integrated; `None` in a quasi-static step.
     pub dynamic: Option<Dynamic>,
     /// Sliding that lasts; `None` where friction follows slips.

@@ -128,6 +128,10 @@ pub struct Increments {
     /// Size that is never exceeded `[fraction of the duration]`.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0), range(max = 1)))]
     pub largest: f64,
+    /// Largest change of the state variables of friction laws over an increment, relative to what they are `[-]`: of θ of rate-and-state friction, and of the slip relative to `dc`. Increments
+    /// are chosen by it, and one over which more than twice as much changes is halved. The error falls with its square. No meaning under laws without a state.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0), range(max = 1)))]
+    pub state_change: f64,
 }
 
 impl Default for Increments {
@@ -137,6 +141,7 @@ impl Default for Increments {
             initial: 0.1,
             smallest: 1e-6,
             largest: 1.0,
+            state_change: 0.1,
         }
     }
 }

@@ -4,6 +4,7 @@ use super::failures::note_fallbacks;
 use super::floating::prepare_floating;
 use super::parts::Run;
 use super::position::Increments;
+use super::state_change;
 use crate::error::Error;
 use crate::model::scene::Scene;
 use crate::results::observer::Observer;
@@ -20,6 +21,9 @@ pub(super) fn propose(run: &Run, running: &mut Increments) -> Option<Trial> {
         Some(bound) if running.attempt == 1 => running.stepper.bound_again(bound),
         // The bound now is that of where an attempt went wrong: a law may be stiffer there than it will ever be.
         _ => {}
+    }
+    if let Some(bound) = state_change::bound(run).filter(|_| running.attempt == 1) {
+        running.stepper.bound_again(bound);
     }
     running.stepper.next()
 }
@@ -75,6 +79,7 @@ pub(super) fn attempt(
         run.solver.newton.fallbacks.clear();
         return Ok(outcome);
     }
+    let outcome = outcome.and_then(|found| state_change::check(run, trial).map(|()| found));
     let notes = run.solver.factors.notes();
     run.solver.log.notes.extend(notes);
     note_fallbacks(run, &trial);

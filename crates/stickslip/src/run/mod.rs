@@ -22,6 +22,7 @@ mod record;
 mod restart;
 mod simulation;
 mod sizes;
+mod state_change;
 
 pub use crate::solve::work::{Watch, Work};
 pub use checkpoint::Checkpoint;

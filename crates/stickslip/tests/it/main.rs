@@ -40,6 +40,7 @@ mod pretension;
 mod price;
 mod problem_files;
 mod quality;
+mod rate_and_state;
 mod references;
 mod restart;
 mod restep;

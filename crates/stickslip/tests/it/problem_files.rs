@@ -384,7 +384,7 @@ const WRONG: &[(&str, &str, &[&str])] = &[
     (
         "interfaces = [\"base\"]",
         "increments = { fixed = 10, initial = 0.2 }",
-        &["38:1 `fixed` excludes `initial`, `smallest` and `largest`"],
+        &["38:1 `fixed` excludes `initial`, `smallest`, `largest` and `state-change`"],
     ),
     (
         "interfaces = [\"base\"]",

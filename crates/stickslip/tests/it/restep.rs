@@ -148,7 +148,7 @@ fn an_attempt_repeated_gives_the_same_bits() {
             .into_iter()
             .next()
             .expect("one interface");
-        let mut history = History::new(interface.points.len(), interface.laws.friction_law());
+        let mut history = interface.first_history();
         let start = state(&interface, 0.0, 0.0, [0.0; 2]);
         let pressed = state(&interface, 1.0, 1e-6, [2e-7, 1e-7]);
         attempt(&mut interface, &history, &start, &pressed);

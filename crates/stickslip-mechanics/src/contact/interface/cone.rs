@@ -44,9 +44,9 @@ pub(super) fn friction_error(interface: &InterfaceForce, stage: &Stage) -> Frict
         let (moved, unsure) = relative_slip(interface, i, e, stage);
         let speed = norm(moved) / stage.dt;
         // What the speed changes is the law's, and it sees another measure of it.
-        let limit = match interface.laws.user.friction {
-            Some(_) => e.response.limit,
-            None => {
+        let limit = match interface.laws.user.friction.is_some() || law.flows() {
+            true => e.response.limit,
+            false => {
                 let limit = law.limit(&FrictionPoint {
                     pressure,
                     penetration: (-e.gap).max(0.0),
@@ -54,6 +54,7 @@ pub(super) fn friction_error(interface: &InterfaceForce, stage: &Stage) -> Frict
                     sticking: before.status != Status::Slip,
                     dt: stage.dt,
                     state: interface.state.law_state(i),
+                    ..FrictionPoint::default()
                 });
                 match limit.d_speed == 0.0 {
                     true => limit.value,

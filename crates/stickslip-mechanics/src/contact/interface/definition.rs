@@ -202,6 +202,16 @@ impl InterfaceDefinition {
         add(point.position(&self.reference), self.origin)
     }
 
+    /// Where its points lie in the reference configuration `[m]`.
+    pub fn places(&self) -> Vec<Vec3> {
+        self.points.iter().map(|point| self.place(point)).collect()
+    }
+
+    /// What is known of it before anything has happened.
+    pub fn first_history(&self) -> History {
+        History::new(&self.places(), self.laws.friction_law())
+    }
+
     /// Springs that stand for the bodies at a contact point `[N/m]` and the height of the cell beneath `[m]`, mean values.
     pub fn typical(&self) -> (f64, f64) {
         let count = self.points.len().max(1) as f64;

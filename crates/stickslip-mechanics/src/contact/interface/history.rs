@@ -123,21 +123,24 @@ pub(in crate::contact) struct FrictionError {
 }
 
 impl History {
-    /// That of so many points under a friction law to which nothing has happened yet.
-    pub fn new(points: usize, law: &dyn FrictionLaw) -> Self {
+    /// That of points at these places of the reference configuration under a friction law to which nothing has happened yet.
+    pub fn new(places: &[Vec3], law: &dyn FrictionLaw) -> Self {
         let mut history = History {
-            points: vec![PointHistory::default(); points],
+            points: vec![PointHistory::default(); places.len()],
             ..History::default()
         };
-        history.begin_law(law);
+        history.begin_law(places, law);
         history
     }
 
     /// Gives points the state variables with which the friction law begins.
-    pub fn begin_law(&mut self, law: &dyn FrictionLaw) {
+    pub fn begin_law(&mut self, places: &[Vec3], law: &dyn FrictionLaw) {
         self.law_states = match law.states().is_empty() {
             true => Vec::new(),
-            false => vec![law.initial_state(); self.points.len()],
+            false => places
+                .iter()
+                .map(|&place| law.initial_state(place))
+                .collect(),
         };
     }
 

@@ -237,7 +237,7 @@ fn drum(
         initial: Initial::default(),
     });
     Followed {
-        state: History::new(interface.points.len(), interface.laws.friction_law()),
+        state: interface.first_history(),
         interface,
     }
 }

@@ -57,6 +57,7 @@ pub(super) fn respond(met: Met, scene: &Scene, batch: &mut Batch) -> Evaluation 
         closing: closing(interface, i, stencil.gap, scene.dt),
         sticking: before.status != Status::Slip,
         state: interface.state.law_state(i),
+        place: interface.definition.place(&interface.points[i]),
         pressed: scene.wants.pressed,
         answers: scene.answers.get(i).copied().unwrap_or_default(),
     };

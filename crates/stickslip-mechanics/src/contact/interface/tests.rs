@@ -6,7 +6,6 @@ use super::Conditions;
 use super::Initial;
 use super::attempt::StatusHistory;
 use super::definition::{InterfaceDefinition, InterfaceMesh, Primary};
-use super::history::History;
 use super::parts::Interface;
 use super::parts::InterfaceForce;
 use super::search::Search;
@@ -245,7 +244,7 @@ fn the_tangent_is_that_of_the_force() {
             let count = interface.dofs.count();
             let from = moved(&interface, 0.0, 1e-3);
             let mut at = moved(&interface, 1.0, 1e-3);
-            let history = History::new(interface.points.len(), interface.laws.friction_law());
+            let history = interface.first_history();
             let conditions = Conditions::default();
             let mut interface = interface.force(&history, &conditions);
             let mut out = Assembler::new(count);
@@ -357,7 +356,7 @@ fn numbers_of_facets_make_no_difference() {
             };
             let mut out = Assembler::new(interface.dofs.count());
             out.reset(false);
-            let history = History::new(interface.points.len(), interface.laws.friction_law());
+            let history = interface.first_history();
             let conditions = Conditions::default();
             let mut interface = interface.force(&history, &conditions);
             interface.prepare(&stage);
@@ -385,7 +384,7 @@ fn tentative_evaluations_leave_no_trace_until_they_are_settled() {
         });
         let du = moved(&plain, 4.0, 1e-4).u;
         let course = |interface: &mut Interface, tentative: bool, given_up: bool| {
-            let history = History::new(interface.points.len(), interface.laws.friction_law());
+            let history = interface.first_history();
             let conditions = Conditions::default();
             let interface = &mut interface.force(&history, &conditions);
             let mut out = Assembler::new(interface.dofs.count());
@@ -463,7 +462,7 @@ fn points_pass_edges_a_few_times_only() {
         };
         let [on, off] = [0.0, 2.0].map(|way| state(&interface, way));
         let mut out = Assembler::new(dofs.count());
-        let history = History::new(interface.points.len(), interface.laws.friction_law());
+        let history = interface.first_history();
         let conditions = Conditions::default();
         let mut interface = interface.force(&history, &conditions);
         let mut passes = |interface: &mut InterfaceForce, at: &State| {

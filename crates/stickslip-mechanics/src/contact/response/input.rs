@@ -1,7 +1,7 @@
 //! What laws are told of a point and an increment, beside gap and slip.
 
 use crate::contact::law::friction::{LawState, Limit};
-use crate::math::Slope;
+use crate::math::{Slope, Vec3};
 
 /// What one evaluation of the laws needs beside the stencil.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,6 +24,8 @@ pub struct LawInput {
     pub sticking: bool,
     /// State variables of the friction law at the last accepted state.
     pub state: LawState,
+    /// Where the point is in the reference configuration `[m]`.
+    pub place: Vec3,
     /// Asked is what the point would do if it was pressed and stuck: in contact even if that takes tension, sticking even beyond the limit, and under a load
     /// that counts. A law that is hardly touched answers with the line that touches it where it is as stiff as the body.
     pub pressed: bool,

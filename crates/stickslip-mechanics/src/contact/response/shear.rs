@@ -55,6 +55,90 @@ fn sliding(limit: f64, motion: &Tangential) -> SlipState {
     }
 }
 
+/// Iterations by which the way of a point that flows is found to rounding: halvings of 700 units of its logarithm, at worst.
+const FLOW_ITERATIONS: usize = 80;
+
+/// The shear of a point that slides under any shear, by a spring in series: `limit(s) + k s = |t*|` with the trial `t* = base - k slip` is solved for the way `s` that the
+/// spring does not take. Rising and smooth in the trial, its slope between that of the spring and none, whatever the law: Newton's method over all points has no steeper
+/// function to follow. The limit that is returned holds along that line, with no speed left to depend on.
+fn flowing(limit: impl Fn(f64) -> Limit, motion: &Tangential) -> (Limit, SlipState) {
+    let (k, dt) = (motion.stiffness, motion.dt);
+    let trial = [0, 1].map(|i| motion.base[i] - k * motion.slip[i]);
+    let size = motion.length(trial);
+    let (way, found) = flow(&limit, size, motion);
+    // By how much of a change of the trial the limit changes, and how much of a change of the law is left of it.
+    let rising = (found.d_speed / dt).max(-0.5 * k);
+    let (by_trial, by_law) = (rising / (k + rising), k / (k + rising));
+    let along = Limit {
+        d_pressure: by_law * found.d_pressure,
+        d_penetration: by_law * found.d_penetration,
+        d_speed: 0.0,
+        ..found
+    };
+    if size == 0.0 {
+        let own = -k * by_trial;
+        let shear = SlipState {
+            d_slip: [[own, 0.0], [0.0, own]],
+            ..SlipState::default()
+        };
+        return (along, shear);
+    }
+    let slips = motion.cone(found.value).boundary(trial, size, -k);
+    let toward = motion.length_slope(trial, size);
+    let mut d_slip = slips.d_motion;
+    for (row, direction) in d_slip.iter_mut().zip(slips.d_limit) {
+        for (d, toward) in row.iter_mut().zip(toward) {
+            *d -= k * by_trial * direction * toward;
+        }
+    }
+    // d|t*|/dskew = t*₁ t*₂ / |t*|
+    let d_size = trial[0] * trial[1] / size;
+    let shear = SlipState {
+        traction: slips.shear,
+        d_slip,
+        d_limit: slips.d_limit,
+        d_skew: [0, 1].map(|i| slips.d_skew[i] + slips.d_limit[i] * by_trial * d_size),
+        sliding: true,
+        sliding_path: trial.map(|t| -way * t / size),
+    };
+    (along, shear)
+}
+
+/// The way of a point that flows, and the limit there. It is looked for by its logarithm, as it may be of any size.
+fn flow(limit: &impl Fn(f64) -> Limit, size: f64, motion: &Tangential) -> (f64, Limit) {
+    let (k, dt) = (motion.stiffness, motion.dt);
+    let rest = |way: f64| {
+        let at = limit(way);
+        (at.value + k * way - size, at.d_speed / dt + k, at)
+    };
+    // It goes no farther than the spring would without friction, and to no more digits than the traction has.
+    let (mut low, mut high) = (f64::MIN_POSITIVE.ln(), (size / k).ln());
+    if !high.is_finite() || high <= low {
+        return (0.0, limit(0.0));
+    }
+    // Where the spring and the speed that there was share the shear.
+    let mut log = high;
+    for _ in 0..FLOW_ITERATIONS {
+        let way = log.exp();
+        let (off, slope, at) = rest(way);
+        match off > 0.0 {
+            true => high = log,
+            false => low = log,
+        }
+        let newton = log - off / (slope * way);
+        let next = match newton > low && newton < high {
+            true => newton,
+            false => 0.5 * (low + high),
+        };
+        if off.abs() <= f64::EPSILON * size || (next - log).abs() <= f64::EPSILON * log.abs() {
+            return (way, at);
+        }
+        log = next;
+    }
+    let way = log.exp();
+    (way, limit(way))
+}
+
 /// By how much a sliding path gets longer with the pressure, of which the limit grows by `d_limit`, and with the slips. Of a rule with a `spring` the path is what
 /// the spring does not take.
 fn lengthens(shear: &SlipState, motion: &Tangential, d_limit: f64, spring: bool) -> [f64; 3] {
@@ -84,9 +168,11 @@ pub(super) fn friction_point(
         pressure: pressure.max(0.0),
         penetration: (-stencil.gap - at.worn.depth(pressure)).max(0.0),
         speed: path / at.dt,
+        speed_at_end: at.slip.path.is_some(),
         sticking: at.sticking,
         dt: at.dt,
         state: at.state,
+        place: at.place,
     }
 }
 
@@ -108,13 +194,23 @@ pub(super) fn shear(laws: &Laws, stencil: &Stencil, at: &LawInput, response: &mu
     let keep = kept(at);
     let motion = tangential(stencil, at, keep);
     let path = motion.length(motion.slip);
-    let limit = limit(laws, stencil, at, response.traction[0], path);
     let rule: &dyn SlipRule = laws.slip.as_dyn();
-    let shear = match (at.pressed, at.slip.sprung) {
-        (true, _) => rule.stuck(limit.value, &motion),
-        _ if at.slip.steady && rule.sticks() => sliding(limit.value, &motion),
-        (false, true) => rule.sprung(limit.value, &motion),
-        (false, false) => rule.traction(limit.value, &motion),
+    let flows = laws.friction_law().flows() && !at.pressed && !at.slip.steady;
+    let (limit, shear) = match flows {
+        true => {
+            let law = |path: f64| limit(laws, stencil, at, response.traction[0], path);
+            flowing(law, &motion)
+        }
+        false => {
+            let limit = limit(laws, stencil, at, response.traction[0], path);
+            let shear = match (at.pressed, at.slip.sprung) {
+                (true, _) => rule.stuck(limit.value, &motion),
+                _ if at.slip.steady && rule.sticks() => sliding(limit.value, &motion),
+                (false, true) => rule.sprung(limit.value, &motion),
+                (false, false) => rule.traction(limit.value, &motion),
+            };
+            (limit, shear)
+        }
     };
     response.limit = limit.value;
     response.state = limit.state;
@@ -162,7 +258,7 @@ pub(super) fn shear(laws: &Laws, stencil: &Stencil, at: &LawInput, response: &mu
         for (j, toward) in toward.iter().enumerate() {
             response.d_gap[i + 1][j + 1] =
                 shear.d_slip[i][j] + d_limit * limit.d_speed * toward / at.dt;
-            if keep != 0.0 && rule.sticks() && !at.slip.steady {
+            if keep != 0.0 && (rule.sticks()) && !at.slip.steady {
                 // the trial traction is keep Σ_t + … - r s
                 response.d_multiplier[i + 1][j + 1] =
                     -keep * shear.d_slip[i][j] / at.stiffness.weight;

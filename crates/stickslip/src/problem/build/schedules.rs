@@ -289,6 +289,7 @@ impl Timeline {
                     milestones,
                     corners,
                     fixed: inc.fixed.is_some(),
+                    state_change: inc.state_change,
                     cycles: step.cycles.map(|c| Cycling {
                         period: step.duration,
                         count: c.count,

@@ -318,13 +318,14 @@ fn increments(findings: &mut Findings, key: &[&str], increments: &Increments) {
         initial,
         smallest,
         largest,
+        state_change: _,
     } = *increments;
     let own = Increments {
         fixed,
         ..Increments::default()
     };
     if fixed.is_some() && *increments != own {
-        let message = "`fixed` excludes `initial`, `smallest` and `largest`";
+        let message = "`fixed` excludes `initial`, `smallest`, `largest` and `state-change`";
         findings.add(key, message, "keep `fixed`, or the others");
     }
     if smallest > initial {

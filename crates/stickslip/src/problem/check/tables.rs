@@ -384,6 +384,7 @@ fn laws(findings: &mut Findings, table: &[&str], interface: &Interface) {
     } = interface;
     parameters(findings, table, interface);
     elements(findings, table, interface);
+    flows(findings, table, interface);
     tied(findings, table, interface);
     initial(findings, table, interface);
     facets(findings, table, interface);
@@ -457,6 +458,18 @@ fn elements(findings: &mut Findings, table: &[&str], interface: &Interface) {
             &[table, &["discretisation"]].concat(),
             "kinematics `pop-1995` and `facets = \"triangles\"` are for contact elements of a point and a facet",
             "remove the key, or write discretisation.node-to-facet = {}",
+        );
+    }
+}
+
+/// Laws under which surfaces always slide leave nothing to a slip rule.
+fn flows(findings: &mut Findings, table: &[&str], interface: &Interface) {
+    let regularised = !interface.slip.as_dyn().sticks();
+    if interface.friction.as_dyn().flows() && regularised {
+        findings.add(
+            &[table, &["slip"]].concat(),
+            "under this friction law surfaces slide at any shear, so there is nothing to regularise",
+            "remove the key",
         );
     }
 }

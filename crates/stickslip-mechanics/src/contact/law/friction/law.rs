@@ -1,5 +1,7 @@
 //! What a friction law is asked and says.
 
+use crate::math::Vec3;
+
 /// Most state variables of a friction law.
 pub const MOST_STATES: usize = 4;
 
@@ -22,23 +24,28 @@ pub struct FrictionPoint {
     pub pressure: f64,
     /// Penetration `max(0, -gap)` `[m]`.
     pub penetration: f64,
-    /// Sliding speed `[m/s]`.
+    /// Sliding speed `[m/s]`: the mean over the increment, or that at its end.
     pub speed: f64,
+    /// `speed` is that at the end of the increment, as in motion.
+    pub speed_at_end: bool,
     /// The point stuck, or was open, at the last accepted state.
     pub sticking: bool,
     /// Time since the last accepted state `[s]`.
     pub dt: f64,
     /// State variables at the last accepted state.
     pub state: LawState,
+    /// Where the point is in the reference configuration `[m]`.
+    pub place: Vec3,
 }
 
 impl FrictionPoint {
-    /// A point at rest under a pressure `[Pa]` to which nothing has happened yet.
+    /// A point at rest under a pressure `[Pa]` to which nothing has happened yet; under a law that flows, one that slides at its typical speed.
     pub fn at_rest(law: &dyn FrictionLaw, pressure: f64) -> Self {
         FrictionPoint {
             pressure,
             sticking: true,
-            state: law.initial_state(),
+            speed: law.typical_speed(),
+            state: law.initial_state([0.0; 3]),
             ..FrictionPoint::default()
         }
     }
@@ -84,9 +91,27 @@ pub trait FrictionLaw: Send + Sync {
         &[]
     }
 
-    /// State variables before anything has happened.
-    fn initial_state(&self) -> LawState {
+    /// State variables before anything has happened, of a point of the reference configuration.
+    fn initial_state(&self, place: Vec3) -> LawState {
+        let _ = place;
         LawState::default()
+    }
+
+    /// `true` if surfaces slide under any shear, however slowly: the limit falls to zero with the speed, and is what is carried at each of them. The slip rule is not
+    /// asked then. The limit has to rise with the speed, or fall more slowly than the bodies give way.
+    fn flows(&self) -> bool {
+        false
+    }
+
+    /// Speed `[m/s]` at which to ask for the limit where none is known.
+    fn typical_speed(&self) -> f64 {
+        0.0
+    }
+
+    /// How fast state variables change relative to what they are `[1/s]`. Increments are kept so short that this times their length is small.
+    fn rate_of_change(&self, state: &LawState, place: Vec3) -> f64 {
+        let _ = (state, place);
+        0.0
     }
 
     /// State variables of a point that was open for a time `dt` `[s]`.
