@@ -423,6 +423,15 @@ pub struct Probe {
     pub point: usize,
 }
 
+/// When sliding counts as an event.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EventPlan {
+    /// Speed above which it does `[m/s]`.
+    pub speed: f64,
+    /// Shear modulus by which slip integrated over the surface is a moment `[Pa]`.
+    pub modulus: Option<f64>,
+}
+
 /// What is written when.
 #[derive(Debug, Clone, Default)]
 pub struct OutputPlan {
@@ -438,6 +447,8 @@ pub struct OutputPlan {
     pub fatigue: Vec<FatigueModel>,
     /// See `fatigue`.
     pub fatigue_depth: Option<f64>,
+    /// Speed above which sliding is an event `[m/s]`, and shear modulus for its moment `[Pa]`.
+    pub slip_events: Option<EventPlan>,
     /// A checkpoint after every so many increments, and after so many seconds of wall clock; 0: not by that.
     pub checkpoint: (usize, f64),
 }

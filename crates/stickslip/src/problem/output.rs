@@ -21,8 +21,25 @@ pub struct Output {
     /// Criteria of fretting fatigue, for every cycle that is computed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fatigue: Option<Fatigue>,
+    /// Events of fast slip, as earthquakes, of interfaces under friction laws that keep their speed: a table `interfaces/NAME-events.csv`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slip_events: Option<SlipEvents>,
     /// Checkpoints, from which `stickslip resume` continues. One is also written when a run is interrupted.
     pub checkpoint: CheckpointPlan,
+}
+
+/// `output.slip-events`: when sliding counts as an event. Events are found in the rows of the history.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub struct SlipEvents {
+    /// An event lasts while some point slides faster than that `[length/time]`.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    pub speed: f64,
+    /// Shear modulus by which slip integrated over the surface is a moment `[pressure]`; the table has no moment without it.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub modulus: Option<f64>,
 }
 
 /// How the `.frd` file is written.
@@ -79,6 +96,7 @@ impl Default for Output {
             times: Vec::new(),
             frd: Frd::None,
             fatigue: None,
+            slip_events: None,
             checkpoint: CheckpointPlan::default(),
         }
     }

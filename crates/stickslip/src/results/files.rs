@@ -14,6 +14,7 @@ use super::history::Row;
 use super::modes;
 use super::observer::{Event, Observer, Snapshot};
 use super::saved::{self, Come, Positions, Saved, Source};
+use super::slip_events;
 use super::summary::Summary;
 use crate::assess::doctor;
 use crate::assess::view::View;
@@ -477,7 +478,12 @@ impl Observer for ResultFiles {
             Event::End => {
                 let growth = &analysis.summary.vibrations.growth;
                 let grown = modes::write_growth(&self.folder.directory, growth);
-                let ended = self.end(analysis.summary).and(grown);
+                let names = analysis.contacts().map(|c| c.name.clone());
+                let events = analysis.model.reports.output.slip_events;
+                let slipped = events.map_or(Ok(()), |plan| {
+                    slip_events::write(&self.folder.directory, names, plan)
+                });
+                let ended = self.end(analysis.summary).and(grown).and(slipped);
                 self.folder.release();
                 ended?;
             }

@@ -11,6 +11,11 @@ use crate::solve::accepted::Effort;
 use crate::system::Motion;
 use crate::time::Trial;
 
+/// Columns of interfaces under laws that keep their speed: the largest speed and slip, and the integral of slip over the surface.
+pub(super) const FASTEST: &str = "VMAX";
+pub(super) const FARTHEST: &str = "SLIPMAX";
+pub(super) const POTENCY: &str = "POTENCY";
+
 /// Columns of the mode along which a motion began.
 pub(super) const AMPLITUDE: &str = "MODE.A";
 pub(super) const PHASE: &str = "MODE.PHASE";
@@ -97,6 +102,11 @@ pub(crate) fn row(
         );
         if !tied {
             row.push(format!("{name}.ALLFD"), look::energy(interface).dissipated);
+        }
+        if let Some(sliding) = look::sliding(interface) {
+            row.push(format!("{name}.{FASTEST}"), sliding.fastest);
+            row.push(format!("{name}.{FARTHEST}"), sliding.farthest);
+            row.push(format!("{name}.{POTENCY}"), sliding.potency);
         }
         if let Some(wear) = look::wear(interface) {
             let [own, other] = wear.depth;

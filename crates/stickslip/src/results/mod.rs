@@ -14,6 +14,7 @@ pub(crate) mod modes;
 pub(crate) mod observer;
 pub(crate) mod saved;
 pub(crate) mod sealed;
+mod slip_events;
 pub(crate) mod summary;
 
 pub use analysis::Analysis;

@@ -4,7 +4,7 @@ use crate::{restart, support};
 use stickslip::Error;
 use stickslip::contact::look;
 use stickslip::model::Setup;
-use stickslip::results::{Analysis, Event, Observer};
+use stickslip::results::{Analysis, Event, Observer, ResultFiles};
 
 /// A block that gives way in shear alone, of stiffness `k` per area, over a floor that moves away beneath it at a velocity, under a pressure of 1 MPa that nothing
 /// changes: a slider on a spring. `dc` and `eta` are of the law; at the start the shear is `more` times that of steady sliding.
@@ -231,6 +231,39 @@ fn a_layer_is_unstable_above_its_critical_height() {
     );
 }
 
+/// Events in files are those of the limit cycle: one each period, with the speed of its peak and the slip of the period.
+#[test]
+fn events_of_a_limit_cycle_are_listed() {
+    let step = "duration = 290\nincrements = { initial = 1e-9, smallest = 1e-14 }\n[output]\nevery = 0\nslip-events = { speed = 1e-3, modulus = 3e10 }";
+    let problem = support::problem(&SLIDER.text(step));
+    let folder = support::folder("events-of-a-limit-cycle");
+    let mut simulation = support::build(&problem).unwrap_or_else(|e| panic!("{e}"));
+    let mut files =
+        ResultFiles::new(&folder, &Default::default()).unwrap_or_else(|e| panic!("{e}"));
+    let run = simulation.run(&mut [&mut files]);
+    run.unwrap_or_else(|e| panic!("{e}"));
+    let table = stickslip::io::csv::read(&folder.join("interfaces/fault-events.csv"));
+    let table = table.unwrap_or_else(|e| panic!("{e}"));
+    let column = |name: &str| table.column(name).expect("a column").to_vec();
+    let [onset, end, peak, potency, moment] =
+        ["onset", "end", "peak-speed", "potency", "moment"].map(column);
+    let n = onset.len();
+    assert!(n >= 5, "{onset:?}");
+    assert!(
+        (onset[n - 1] - onset[n - 2] - 25.4999).abs() < 0.02,
+        "{onset:?}"
+    );
+    assert!((peak[n - 1] / 2.3398 - 1.0).abs() < 0.02, "{peak:?}");
+    assert!(end[n - 1] > onset[n - 1] && end[n - 1] - onset[n - 1] < 0.1);
+    // Most of the way of the floor over a period is slipped in the event, on an area of one; the rest is creep before and after it.
+    let way = 25.4999 * 1e-5;
+    assert!(
+        potency[n - 1] > 0.7 * way && potency[n - 1] < way,
+        "{potency:?}"
+    );
+    assert!((moment[n - 1] / potency[n - 1] / 3e10 - 1.0).abs() < 1e-12);
+}
+
 const DRAGGED: &str = "
 [material.m]
 isotropic = { young = 2e7, poisson = 0.3, density = 1000 }
@@ -339,6 +372,14 @@ fn parameters_and_other_laws_that_do_not_fit_are_refused() {
         let complaint = support::complaint(&dragged("sparse", STEP).replace(from, to));
         assert!(complaint.contains(part), "{complaint}");
     }
+    let events = "output.slip-events.speed = 1e-3\n";
+    let none = events.to_string()
+        + &support::dragged("sparse", ["[9, 3]", "[4, 4]", "2e9", "0.03", "3"])
+        + STEP;
+    assert!(support::complaint(&none).contains("keeps its speed"));
+    let negative = "output.slip-events.speed = -1\n".to_string() + &dragged("sparse", STEP);
+    let complaint = support::complaint(&negative);
+    assert!(complaint.contains("greater than 0"), "{complaint}");
     let regularised = dragged("sparse", STEP).replace(
         "normal.linear",
         "slip.regularised.epsilon = 1e-3\nnormal.linear",

@@ -17,6 +17,7 @@ mod quality;
 mod resolution;
 mod resultant;
 mod sheet;
+mod sliding;
 mod snaps;
 mod spacing;
 mod table;
@@ -49,6 +50,7 @@ pub use resultant::{
     Resultant, centre_and_normal, closed, committed_tally, resultant, sliding_area,
 };
 pub use sheet::{Sheet, sheet};
+pub use sliding::{Sliding, sliding};
 pub use snaps::snaps;
 pub use spacing::coarser;
 pub use table::{initial_gaps, table};

@@ -34,6 +34,7 @@ use crate::body::{Elastic, Space};
 use crate::contact::interface::{Interface, InterfaceDefinition};
 use crate::error::{Diagnostic, Error};
 use crate::mesh::{FacetRef, Mesh, geometry};
+use crate::model::definition::EventPlan;
 use crate::model::{
     Actions, Body, Contact, Heat, Model, OutputPlan, Prescribed, Probe, Reference, ReportPlan,
     Setup, SolutionPlan, Step, Support,
@@ -296,6 +297,10 @@ fn reports(problem: &Problem, probes: Vec<Probe>) -> ReportPlan {
             times: output.times.clone(),
             frd: output.frd.encoding(),
             history_every: output.history_every,
+            slip_events: output.slip_events.map(|e| EventPlan {
+                speed: e.speed,
+                modulus: e.modulus,
+            }),
             fatigue: fatigue.map_or(Vec::new(), |f| f.criteria.clone()),
             fatigue_depth: fatigue.and_then(|f| f.depth),
             checkpoint: (checkpoint.increments, 60.0 * checkpoint.minutes),

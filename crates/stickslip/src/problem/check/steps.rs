@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::super::key;
 use super::super::nearest::suggest;
-use super::super::{Cycles, Increments, Problem, Step};
+use super::super::{Cycles, Increments, Interface, Problem, Step};
 use super::cycles;
 use super::findings::Findings;
 use crate::body::loads::LoadKind;
@@ -65,6 +65,7 @@ pub(super) fn check(problem: &Problem, findings: &mut Findings) {
     }
     output(problem, findings);
     fatigue(problem, findings);
+    slip_events(problem, findings);
 }
 
 /// Rules of steps without increments.
@@ -336,6 +337,30 @@ fn increments(findings: &mut Findings, key: &[&str], increments: &Increments) {
     if initial > largest {
         let message = format!("`initial` ({initial}) is larger than `largest` ({largest})");
         findings.add(key, message, "");
+    }
+}
+
+fn slip_events(problem: &Problem, findings: &mut Findings) {
+    let Some(events) = &problem.output.slip_events else {
+        return;
+    };
+    let key = ["output", "slip-events"];
+    let keeps = |interface: &Interface| {
+        let law = interface.friction.as_dyn();
+        law.speed_in(&law.initial_state([0.0; 3])).is_some()
+    };
+    if !problem.interface.values().any(keeps) {
+        findings.add(
+            &key,
+            "no interface has a friction law that keeps its speed",
+            "give one `friction.rate-and-state`, or remove it",
+        );
+    }
+    for (name, value) in [("speed", Some(events.speed)), ("modulus", events.modulus)] {
+        if value.is_some_and(|v| !(v > 0.0 && v.is_finite())) {
+            let place = [&key[..], &[name]].concat();
+            findings.add(&place, "must be positive and finite", "");
+        }
     }
 }
 

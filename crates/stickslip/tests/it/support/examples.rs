@@ -25,6 +25,7 @@ macro_rules! every_example {
             compliance_bar = "compliance-bar",
             compliance_impact = "compliance-impact",
             disc_brake = "disc-brake",
+            fault_bp1 = "fault-bp1",
             flat_punch = "flat-punch",
             forced_slider = "forced-slider",
             free_slider = "free-slider",

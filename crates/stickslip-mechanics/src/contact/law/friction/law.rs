@@ -103,6 +103,12 @@ pub trait FrictionLaw: Send + Sync {
         false
     }
 
+    /// The sliding speed among the state variables `[m/s]`, of laws that keep it.
+    fn speed_in(&self, state: &LawState) -> Option<f64> {
+        let _ = state;
+        None
+    }
+
     /// Speed `[m/s]` at which to ask for the limit where none is known.
     fn typical_speed(&self) -> f64 {
         0.0

@@ -263,6 +263,10 @@ impl FrictionLaw for RateAndState {
         true
     }
 
+    fn speed_in(&self, state: &LawState) -> Option<f64> {
+        Some(state[1])
+    }
+
     fn typical_speed(&self) -> f64 {
         self.v0
     }
