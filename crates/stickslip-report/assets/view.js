@@ -179,8 +179,8 @@ report.attempt(async () => {
     renderer.setSize(w, h, false);
     uniforms.dot.value = (flat ? 8 : 7) * renderer.getPixelRatio();
     const half = extent();
-    // The colour bar stands at the right; the bodies keep to the rest.
-    const bar = Math.min(210, 0.3 * w);
+    // The colour bar stands at the right, and the bodies keep to the rest; on a narrow page it stands below.
+    const bar = getComputedStyle(by("bar")).position === "static" ? 0 : Math.min(210, 0.3 * w);
     const tall = Math.max(half.y, (half.x * h) / (w - bar)) * 1.12;
     camera.top = tall;
     camera.bottom = -tall;
@@ -452,7 +452,8 @@ report.attempt(async () => {
     draw();
   }
 
-  // Only the bodies whose faces carry the field, seen from where these faces look, as near as what is not zero allows.
+  // The bodies as the picture of the contact pressure arranges them; in other reports only those whose faces carry the field, seen from where these faces look, as near as what is
+  // not zero allows.
   async function contact() {
     const named = model.fields.find((f) => f.name === "CPRESS") || model.fields.find((f) => f.partial);
     if (!named) return;
@@ -466,6 +467,13 @@ report.attempt(async () => {
     if (flat) {
       look(home);
       near(bodies, values, most);
+      return;
+    }
+    if (model.contact) {
+      const { bodies: drawn, offsets, view } = model.contact;
+      bodies.forEach((body, i) => { toggle(body, drawn[i]); body.group.position.fromArray(offsets[i]); });
+      look(view);
+      if (offsets.flat().every((x) => x === 0)) near(bodies.filter((body) => body.group.visible), values, most);
       return;
     }
     const sums = bodies.map((body) => {
@@ -555,7 +563,7 @@ report.attempt(async () => {
   uniforms.factor.value = model.scale;
   const home = flat ? [0, 0, 1] : [0.62, -0.72, 0.5];
   const views = by("views");
-  const whole = () => { for (const body of bodies) toggle(body, true); look(home); };
+  const whole = () => { by("gap").value = "0"; apart(); for (const body of bodies) toggle(body, true); look(home); };
   const add = (words, work) => views.append(element("button", { type: "button", onclick: work }, words));
   add("Whole", whole);
   if (!flat) {

@@ -484,6 +484,13 @@ fn facts(folder: &Folder, wanted: &Picture) -> Facts {
     all.remove(0)
 }
 
+/// The description of what a page shows.
+fn meta(page: &str) -> serde_json::Value {
+    let start = page.find("id=\"meta\">").expect("data") + "id=\"meta\">".len();
+    let end = start + page[start..].find("</script>").expect("an end");
+    serde_json::from_str(&page[start..end]).unwrap()
+}
+
 #[test]
 fn contact_between_bodies_in_space_is_seen() {
     let folder = Folder::new("apart");
@@ -529,6 +536,13 @@ fn contact_between_bodies_in_space_is_seen() {
         ..Picture::default()
     });
     assert_eq!((stress.offsets, stress.in_view), (vec![[0.0; 3]; 2], None));
+    // The report opens with the bodies where the picture has them.
+    let (page, _) = page(&Results::open(&folder.0).unwrap(), Limits::default()).unwrap();
+    let opened = &meta(&page)["model"]["contact"];
+    let far: Vec<[f64; 3]> = serde_json::from_value(opened["offsets"].clone()).unwrap();
+    let pairs = far.iter().flatten().zip(seen.offsets.iter().flatten());
+    assert!(pairs.clone().all(|(a, b)| (a - b).abs() < 1e-12), "{far:?}");
+    assert_eq!(opened["bodies"], serde_json::json!([true, true]));
 }
 
 #[test]
@@ -616,6 +630,14 @@ fn invariants_of_the_stress_are_drawn() {
         assert!(s1[k] >= s2[k] && s2[k] >= s3[k], "{s1:?} {s2:?} {s3:?}");
     }
     let (_, mises) = extremes("MISES");
+    // Colours are for what is in the picture: away from the largest stress they end below it.
+    let far = Picture {
+        field: Some("MISES".into()),
+        zoom: Zoom::Times(8.0),
+        at: Some([0.5, 1.9, 0.0]),
+        ..Picture::default()
+    };
+    assert!(facts(&folder, &far).range[1] < 0.99 * mises[1]);
     let (_, tresca) = extremes("TRESCA");
     // Tresca's stress is between that of von Mises and 2/√3 of it.
     let ratio = tresca[1] / mises[1];
@@ -902,9 +924,7 @@ fn shapes_of_modes_are_in_the_view() {
         "frequency,residual,p.U1.AMPLITUDE,p.U1.PHASE,p.U2.AMPLITUDE,p.U2.PHASE"
     );
     let (page, _) = page(&Results::open(&folder.0).unwrap(), Limits::default()).unwrap();
-    let start = page.find("id=\"meta\">").expect("data") + "id=\"meta\">".len();
-    let end = start + page[start..].find("</script>").expect("an end");
-    let meta: serde_json::Value = serde_json::from_str(&page[start..end]).unwrap();
+    let meta = meta(&page);
     let modes = meta["model"]["modes"].as_array().expect("modes");
     let labels: Vec<&str> = modes.iter().filter_map(|m| m["label"].as_str()).collect();
     assert_eq!(labels.len(), 7, "{labels:?}");
@@ -979,7 +999,7 @@ const BEAM: &str = r#"
 format = 1
 title = "A beam"
 model.space = "solid"
-body.beam = { generate.box = { to = [10, 1, 1], cells = [6, 1, 1], element = "hex20" }, material = "m" }
+body.beam = { generate.box = { to = [0.1, 0.01, 0.01], cells = [6, 1, 1], element = "hex20" }, material = "m" }
 material.m.isotropic = { young = 210e9, poisson = 0.3, density = 7.8e3 }
 support.wall = { set = "beam.left", x = 0, y = 0, z = 0 }
 step = [{ name = "ring", modes = { count = 3 } }]
@@ -1007,6 +1027,10 @@ fn modes_are_drawn_and_move() {
     };
     let facts = plot::facts(&folder.0, &all).unwrap();
     assert_eq!(facts.len(), 24);
+    // A mode of amplitude one is drawn at a twentieth of the model, however small that is.
+    let drawn = facts[0].factor * facts[0].extremes.unwrap()[1];
+    let size = f64::sqrt(0.1f64.powi(2) + 2.0 * 0.01f64.powi(2));
+    assert!((drawn / size - 0.05).abs() < 1e-9, "{drawn} {size}");
     let largest: Vec<f64> = facts.iter().map(|f| f.extremes.unwrap()[1]).collect();
     for (k, size) in largest.iter().enumerate() {
         let wanted = (std::f64::consts::TAU * k as f64 / 24.0).cos().abs();

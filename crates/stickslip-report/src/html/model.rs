@@ -89,6 +89,12 @@ pub fn pack(results: &Results, limit: u64, notes: &mut Vec<String>) -> Result<Pa
     let peak = results.of_peak()?;
     let start = (0..kept.len()).min_by_key(|&i| kept[i].abs_diff(peak));
     packed.meta["start"] = json!(start);
+    if let Some(at) = start {
+        let contact = crate::plot::arrangement(results, kept[at])?;
+        packed.meta["contact"] = json!(
+            contact.map(|c| { json!({"bodies": c.bodies, "offsets": c.offsets, "view": c.view}) })
+        );
+    }
     let sheets = kept.iter().map(|&frame| results.sheets(frame));
     let sheets: Vec<Vec<Sheet>> = sheets.collect::<Result<_, Error>>()?;
     let largest = packed.meta["largest"].as_f64().unwrap_or(0.0);

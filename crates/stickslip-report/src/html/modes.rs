@@ -33,12 +33,12 @@ pub fn section(results: &Results) -> Result<String, Error> {
                 let at = |values: &[f64]| values.get(k).map_or("–".into(), |v| figure(*v));
                 let ratio = ratios.get(k).copied().unwrap_or(0.0);
                 let verdict = match grows(ratio) {
-                    true => "<strong>unstable: it grows</strong>",
+                    true => "<strong>unstable</strong>",
                     false if grows(-ratio) => "stable",
                     false => "undamped",
                 };
                 format!(
-                    "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{verdict}</td></tr>\n",
+                    "<tr><th scope=\"row\">{}</th><td>{}</td><td>{verdict}</td><td>{}</td><td>{}</td></tr>\n",
                     k + 1,
                     at(frequencies),
                     at(growths),
@@ -48,7 +48,7 @@ pub fn section(results: &Results) -> Result<String, Error> {
             .collect();
         out += &format!(
             "<h3>Step {step}</h3>\n<div class=\"wide\"><table class=\"figures\"><thead><tr><th scope=\"col\">mode</th><th scope=\"col\">frequency</th>\
-             <th scope=\"col\">growth</th><th scope=\"col\">damping ratio</th><th scope=\"col\"></th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
+             <th scope=\"col\">verdict</th><th scope=\"col\">growth</th><th scope=\"col\">damping ratio</th></tr></thead>\n<tbody>\n{rows}</tbody></table></div>\n"
         );
         for svg in crate::plot::couplings(results, step)? {
             out += &format!("<figure class=\"along\">{svg}</figure>\n");

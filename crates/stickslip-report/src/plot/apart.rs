@@ -166,8 +166,22 @@ pub struct Row {
     pub places: Vec<usize>,
 }
 
-/// How bodies come apart: along the normal of the contact that carries most, the more heavily loaded contacts first. `None` where no two bodies touch.
-pub fn row(contacts: &[Contact], bodies: usize, mirrors: &[Mirror]) -> Option<Row> {
+/// The middle of each body as it is drawn.
+pub fn middles(stage: Stage) -> Vec<Vec3> {
+    let mut sums = vec![([0.0; 3], 0.0); stage.bodies.len()];
+    for (x, &body) in stage.moved.iter().zip(&stage.skin.owner) {
+        let (sum, count) = &mut sums[body as usize];
+        (0..3).for_each(|c| sum[c] += x[c]);
+        *count += 1.0;
+    }
+    let mean = |(sum, count): (Vec3, f64)| sum.map(|x| x / f64::max(count, 1.0));
+    sums.into_iter().map(mean).collect()
+}
+
+/// How bodies come apart: along the normal of the contact that carries most. First come contacts whose bodies stand in that order already, by their `middles`, then the more
+/// heavily loaded ones: a bolt between its head and its nut stands above both plates or below both, and leaves the plates in their order. `None` where no two bodies touch.
+pub fn row(contacts: &[Contact], middles: &[Vec3], mirrors: &[Mirror]) -> Option<Row> {
+    let bodies = middles.len();
     let mut all: Vec<(&Contact, [usize; 2], Vec3, bool)> = contacts
         .iter()
         .filter_map(|c| {
@@ -188,6 +202,11 @@ pub fn row(contacts: &[Contact], bodies: usize, mirrors: &[Mirror]) -> Option<Ro
     if dot(along, [0.3, -0.4, 1.0]) < 0.0 {
         along = along.map(|x| -x);
     }
+    let stands = |(_, [own, other], normal, _): &(&Contact, [usize; 2], Vec3, bool)| {
+        let apart = dot(middles[*own], along) - dot(middles[*other], along);
+        apart * dot(*normal, along) > 0.0
+    };
+    all.sort_by_key(|one| !(one.3 && stands(one)));
     let mut places = vec![0; bodies];
     let mut above: Vec<[usize; 2]> = Vec::new();
     for (_, [own, other], normal, agree) in all {
@@ -320,14 +339,24 @@ mod tests {
             contact([3, 2], down, 4.5),
             contact([3, 0], up, 0.0),
         ];
-        let row = row(&all, 5, &[]).unwrap();
+        let at = |z: f64| [0.0, 0.0, z];
+        let middles = [at(0.5), at(1.0), at(-1.0), at(-2.0), at(0.0)];
+        let row = row(&all, &middles, &[]).unwrap();
         assert_eq!((row.along, row.places), (up, vec![3, 2, 1, 0, 0]));
+        // Head and nut of one body (0), which carry more than the joint between the plates (1, 2): these keep their order.
+        let all = [
+            contact([0, 1], up, 5.0),
+            contact([0, 2], down, 5.0),
+            contact([1, 2], up, 2.0),
+        ];
+        let row = super::row(&all, &[at(0.0), at(1.0), at(-1.0)], &[]).unwrap();
+        assert_eq!(row.places, [2, 1, 0]);
         // Nothing comes apart from an obstacle.
         let alone = Contact {
             bodies: [Some(0), None],
             ..contact([0, 1], up, 1.0)
         };
-        assert_eq!(super::row(&[alone], 1, &[]), None);
+        assert_eq!(super::row(&[alone], &[at(0.0)], &[]), None);
     }
 
     #[test]
@@ -340,7 +369,7 @@ mod tests {
             points: around.collect(),
             ..contact([1, 0], [0.; 3], 1.0)
         };
-        let row = row(&[pin], 2, &[]).unwrap();
+        let row = row(&[pin], &[[0.0; 3]; 2], &[]).unwrap();
         assert!((row.along[2].abs() - 1.0).abs() < 1e-12);
         assert_ne!(row.places[0], row.places[1]);
     }

@@ -3,7 +3,7 @@
 use stickslip::math::cross;
 use stickslip::problem::nearest;
 
-use super::apart::{Contact, Row, Stage, in_view, row, views};
+use super::apart::{Contact, Row, Stage, in_view, middles, row, views};
 use super::axis;
 use super::camera::{Camera, View, unit};
 use super::picture::{Apart, Picture, Zoom};
@@ -28,6 +28,16 @@ pub struct Shown {
     pub notes: Vec<String>,
 }
 
+/// How the surfaces in contact are seen in space: as the picture of the contact pressure shows them.
+pub struct Arrangement {
+    /// Whether each body is drawn.
+    pub bodies: Vec<bool>,
+    /// By how much each is moved `[length]`.
+    pub offsets: Vec<[f64; 3]>,
+    /// Towards the eye.
+    pub view: [f64; 3],
+}
+
 /// What is known when bodies and view are chosen.
 #[derive(Clone, Copy)]
 pub struct Known<'a> {
@@ -39,6 +49,8 @@ pub struct Known<'a> {
     pub stage: Stage<'a>,
     /// What touches.
     pub contacts: &'a [Contact],
+    /// The unit of length; may be empty.
+    pub length: &'a str,
 }
 
 /// Distances to which bodies are drawn apart, parts of the model, the first that shows enough.
@@ -64,7 +76,7 @@ pub fn choose(known: &Known, wanted: &Picture) -> Result<Shown, String> {
     }
     let near = wanted.zoom == Zoom::Contact || wanted.zoom == Zoom::Auto && small(known);
     let apart = (wanted.apart != Apart::Auto || !near)
-        .then(|| row(known.contacts, skin.ends.len(), known.stage.mirrors))
+        .then(|| row(known.contacts, &middles(known.stage), known.stage.mirrors))
         .flatten();
     if apart.is_some() || wanted.apart != Apart::Auto {
         spread(known, wanted, apart.as_ref(), &mut shown);
@@ -158,10 +170,10 @@ fn spread(known: &Known, wanted: &Picture, row: Option<&Row>, shown: &mut Shown)
     let (part, distance, view) = best;
     shown.offsets = offsets(distance);
     (shown.in_view, shown.view) = (Some(part), view);
-    if distance > 0.0 && row.is_some() {
-        let words = format!("bodies drawn apart by {}", axis::number(distance, 3));
+    if let Some(row) = row.filter(|_| distance > 0.0) {
+        let words = apart_words(distance, row, known, &shown.bodies);
         shown.notes.push(format!(
-            "{words} so that contact is seen, {:.0} % of its faces (--apart 0 leaves bodies where they are)",
+            "{words}; the picture shows {:.0} % of the faces in contact (--apart 0 leaves bodies where they are)",
             100.0 * part
         ));
         shown.words = Some(match shown.words.take() {
@@ -169,6 +181,33 @@ fn spread(known: &Known, wanted: &Picture, row: Option<&Row>, shown: &mut Shown)
             None => words,
         });
     }
+}
+
+/// More bodies than this are not named in a caption.
+const NAMED_BODIES: usize = 6;
+
+/// By how much bodies are drawn apart, in which direction, and in which order they stand there.
+fn apart_words(distance: f64, row: &Row, known: &Known, shown: &[bool]) -> String {
+    let length = format!("{} {}", axis::number(distance, 3), known.length);
+    let mut words = format!("bodies drawn apart by {}", length.trim_end());
+    let axis = (0..3).find(|&c| row.along[c].abs() > 0.99);
+    let drawn: Vec<usize> = (0..shown.len()).filter(|&b| shown[b]).collect();
+    if let Some(axis) = axis.filter(|_| drawn.len() <= NAMED_BODIES) {
+        let mut places: Vec<usize> = drawn.iter().map(|&b| row.places[b]).collect();
+        places.sort_unstable();
+        places.dedup();
+        if row.along[axis] < 0.0 {
+            places.reverse();
+        }
+        let at = |place: &usize| {
+            let here = drawn.iter().filter(|&&b| row.places[b] == *place);
+            let names: Vec<&str> = here.map(|&b| known.names[b].as_str()).collect();
+            names.join(" and ")
+        };
+        let names: Vec<String> = places.iter().map(at).collect();
+        words += &format!(" along {}: {}", ["x", "y", "z"][axis], names.join(", "));
+    }
+    words
 }
 
 /// Leaves one side of the contact, and looks at it.

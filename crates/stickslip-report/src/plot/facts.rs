@@ -8,6 +8,8 @@ use super::symbols::Acts;
 pub struct Facts {
     /// Its time `[time]`.
     pub time: f64,
+    /// The factor of the displacements.
+    pub factor: f64,
     /// The field in colour.
     pub field: Option<String>,
     /// What the ends of the colours stand for.

@@ -82,41 +82,36 @@ pub fn arrows(sheets: &[Sheet], drawn: &Drawn, dim: usize, canvas: &mut dyn Canv
     let points = |sheet: &Sheet| 0..sheet.grid.points.points.len();
     let all = sheets
         .iter()
-        .flat_map(|s| points(s).map(|i| size(s.vector(name, i))));
-    let most = all.filter(|v| v.is_finite()).fold(0.0, f64::max);
+        .flat_map(|s| points(s).map(move |i| (s, i, s.vector(name, i))));
+    let mut all: Vec<(&Sheet, usize, [f64; 3])> = all.filter(|v| size(v.2).is_finite()).collect();
+    // Where points are too close for an arrow each the largest traction has it.
+    all.sort_by(|a, b| size(b.2).total_cmp(&size(a.2)));
+    let most = all.first().map_or(0.0, |v| size(v.2));
     if most <= 0.0 {
         return;
     }
     let longest = 0.11 * drawn.area[0].min(drawn.area[1]);
     let mut taken: Vec<[f64; 2]> = Vec::new();
     let apart = if dim == 2 { 0.75 } else { 1.4 } * drawn.em;
-    for sheet in sheets {
-        for i in points(sheet) {
-            let t = sheet.vector(name, i);
-            let Some(p) = drawn.contact(sheet, i) else {
-                continue;
-            };
-            let near = |q: &[f64; 2]| (q[0] - p[0]).hypot(q[1] - p[1]) < apart;
-            if !size(t).is_finite() || size(t) < 0.01 * most || taken.iter().any(near) {
-                continue;
-            }
-            taken.push(p);
-            let d = drawn.towards(t).map(|x| x / most * longest);
-            let (from, to) = match dim {
-                2 => ([p[0] - d[0], p[1] - d[1]], p),
-                _ => (p, [p[0] + d[0], p[1] + d[1]]),
-            };
-            let ink = ink(sheet, i);
-            // On a surface that has the same colour.
-            let dark = ink.map(|c| (f64::from(c) * 0.45) as u8);
-            arrow(
-                from,
-                to,
-                if dim == 2 { ink } else { dark },
-                drawn.em,
-                canvas,
-            );
+    for (sheet, i, t) in all {
+        let Some(p) = drawn.contact(sheet, i) else {
+            continue;
+        };
+        let near = |q: &[f64; 2]| (q[0] - p[0]).hypot(q[1] - p[1]) < apart;
+        if size(t) < 0.01 * most || taken.iter().any(near) {
+            continue;
         }
+        taken.push(p);
+        let d = drawn.towards(t).map(|x| x / most * longest);
+        let (from, to) = match dim {
+            2 => ([p[0] - d[0], p[1] - d[1]], p),
+            _ => (p, [p[0] + d[0], p[1] + d[1]]),
+        };
+        let ink = ink(sheet, i);
+        // On a surface that has the same colour.
+        let dark = ink.map(|c| (f64::from(c) * 0.45) as u8);
+        let ink = if dim == 2 { ink } else { dark };
+        arrow(from, to, ink, drawn.em, canvas);
     }
 }
 
@@ -168,7 +163,11 @@ pub fn peak(
         .collect();
     canvas.line(&ring, Pen::new([255; 3], 0.34 * em));
     canvas.line(&ring, Pen::new(INK, 0.16 * em));
-    let start = if right { end[0] } else { end[0] - wide };
+    // The line ends at the box around the text.
+    let start = match right {
+        true => end[0] + 0.3 * em,
+        false => end[0] - wide - 0.3 * em,
+    };
     canvas.rectangle(
         [start - 0.3 * em, up - 0.95 * em],
         [wide + 0.6 * em, 1.4 * em],

@@ -33,6 +33,7 @@ use crate::results::{Results, fault};
 use crate::shapes;
 
 pub(crate) use along::drawings;
+use bodies::Arrangement;
 use files::{canvas, chosen, numbered};
 
 pub use along::{Along, along};
@@ -116,6 +117,19 @@ pub fn facts(directory: &Path, wanted: &Picture) -> Result<Vec<Facts>, Error> {
         scene.draw(*frame, wanted.size, &mut canvas)
     };
     frames.iter().map(draw).collect()
+}
+
+/// How the picture of the contact pressure at one of the times shows the bodies; `None` where there is no such picture in space.
+pub(crate) fn arrangement(results: &Results, frame: usize) -> Result<Option<Arrangement>, Error> {
+    let grid = results.grid(frame)?;
+    if !grid.points.arrays.contains_key("CPRESS") {
+        return Ok(None);
+    }
+    let wanted = Picture {
+        field: Some("CPRESS".into()),
+        ..Picture::default()
+    };
+    Ok(scene::Scene::new(results, &wanted, &[frame])?.arrangement())
 }
 
 /// Results with something to draw: fields, or the shape of a mode.

@@ -7,7 +7,7 @@ use stickslip::Error;
 use stickslip::io::vtu::{Grid, PointFields};
 
 use super::apart::{self, Contact, Stage};
-use super::bodies::{self, Known, Shown};
+use super::bodies::{self, Arrangement, Known, Shown};
 use super::camera::{Camera, Frame};
 use super::facts::Facts;
 use super::marks;
@@ -161,6 +161,7 @@ impl<'a> Scene<'a> {
             (Some(scale), _) => scale,
             // Where contact is looked at nothing is moved to where it is not.
             (None, true) => 1.0,
+            (None, false) if wanted.mode.is_some() => zoom::of_shape(skin.size(), largest),
             (None, false) => zoom::scale(skin.size(), largest, sheets.iter().flatten()),
         };
         let mirrors: Vec<zoom::Mirror> = (wanted.mirrors.iter())
@@ -174,7 +175,13 @@ impl<'a> Scene<'a> {
         let contacts = field.as_ref().map_or_else(Vec::new, |field| {
             apart::contacts(&skin, &grid.points, field, &sheets[0], &moved, scale)
         });
+        let units = match (&wanted.units, wanted.mode.is_some()) {
+            (Some(units), _) => units.clone(),
+            (None, true) => Units::default(),
+            (None, false) => Units::of(results),
+        };
         let known = Known {
+            length: &units.length,
             names: &results.bodies(skin.ends.len()),
             values: &values(&grid.points, &skin, field.as_ref()),
             stage: Stage {
@@ -221,16 +228,28 @@ impl<'a> Scene<'a> {
             seen: zoom::EMPTY_BOX,
             acting,
             arrows: wanted.arrows.unwrap_or(contact && whole.dim == 2),
-            units: match (&wanted.units, wanted.mode.is_some()) {
-                (Some(units), _) => units.clone(),
-                (None, true) => Units::default(),
-                (None, false) => Units::of(results),
-            },
+            units,
             cut,
             notes,
         };
         scene.survey(wanted, frames, &sheets)?;
         Ok(scene)
+    }
+
+    /// How the bodies are arranged in space.
+    pub fn arrangement(&self) -> Option<Arrangement> {
+        let Look {
+            skin,
+            shown,
+            offsets,
+            camera,
+            ..
+        } = &self.look;
+        (skin.dim == 3).then(|| Arrangement {
+            bodies: shown.clone(),
+            offsets: offsets.clone(),
+            view: camera.out,
+        })
     }
 
     /// Chooses colours, and which part is seen, from all times.
@@ -248,7 +267,8 @@ impl<'a> Scene<'a> {
             let values = values(&points, &look.skin, field);
             let weights = statistics::weights(&look.skin, &values, &look.shown);
             let drawn = (0..values.len()).filter(|&i| look.draws(i as u32));
-            all.extend(drawn.map(|i| [values[i], weights[i]]));
+            let moved = look.moved(&points);
+            all.extend(drawn.map(|i| (look.camera.see(moved[i]), [values[i], weights[i]])));
             let [low, high] = look.bounds(&points);
             for c in 0..2 {
                 bounds[0][c] = f64::min(bounds[0][c], low[c]);
@@ -263,25 +283,6 @@ impl<'a> Scene<'a> {
                     .fold(0.0, f64::max);
             bounds = [bounds[0].map(|x| x - room), bounds[1].map(|x| x + room)];
         }
-        let carried = field.is_some_and(Field::carried);
-        if carried {
-            // Of what a surface carries the part that carries counts.
-            all.retain(|[value, _]| *value != 0.0);
-        }
-        let robust = statistics::robust(all, carried).unwrap_or([0.0; 2]);
-        let (range, signed) = field::span_of(field, robust);
-        let colours = Scale {
-            range: wanted.colours.range.unwrap_or(range),
-            // Zero is in the middle of what is given only where both ends are as far from it.
-            signed: wanted
-                .colours
-                .range
-                .map_or(signed, |[low, high]| low == -high),
-            status: field.is_some_and(|f| f.name == field::STATUS),
-            carried,
-            bands: wanted.colours.bands,
-            threshold: wanted.colours.threshold,
-        };
         let contact = field.is_some_and(Field::of_contact);
         let patch = (sheets.iter().flatten()).flat_map(|sheet| {
             let places = sheet
@@ -297,8 +298,33 @@ impl<'a> Scene<'a> {
         };
         let middle = wanted.at.map(|x| look.camera.see(x));
         let seen = zoom::seen(bounds, patch, nearer, middle);
-        self.seen = seen.map_err(|m| fault(&self.results.directory, m))?;
-        (self.bounds, self.look.colours) = (bounds, colours);
+        let seen = seen.map_err(|m| fault(&self.results.directory, m))?;
+        let carried = field.is_some_and(Field::carried);
+        if carried {
+            // Of what a surface carries the part that carries counts.
+            all.retain(|(_, [value, _])| *value != 0.0);
+        }
+        // Colours are for what is in the picture.
+        let inside = |x: [f64; 3]| (0..2).all(|c| (seen[0][c]..=seen[1][c]).contains(&x[c]));
+        if all.iter().any(|(x, _)| inside(*x)) {
+            all.retain(|(x, _)| inside(*x));
+        }
+        let all = all.into_iter().map(|(_, value)| value).collect();
+        let robust = statistics::robust(all, carried).unwrap_or([0.0; 2]);
+        let (range, signed) = field::span_of(field, robust);
+        let colours = Scale {
+            range: wanted.colours.range.unwrap_or(range),
+            // Zero is in the middle of what is given only where both ends are as far from it.
+            signed: wanted
+                .colours
+                .range
+                .map_or(signed, |[low, high]| low == -high),
+            status: field.is_some_and(|f| f.name == field::STATUS),
+            carried,
+            bands: wanted.colours.bands,
+            threshold: wanted.colours.threshold,
+        };
+        (self.bounds, self.seen, self.look.colours) = (bounds, seen, colours);
         Ok(())
     }
 
@@ -348,6 +374,7 @@ impl<'a> Scene<'a> {
         let extremes = field::range(drawn.clone().map(|i| values[i]));
         let mut facts = Facts {
             time: self.results.frames[frame].time,
+            factor: self.look.scale,
             field: self.look.field.as_ref().map(|f| f.name.clone()),
             range: colours.range,
             extremes,
@@ -523,7 +550,7 @@ impl<'a> Scene<'a> {
             Some(phase) => format!("{}, phase {:.0}°", phase.label, phase.angle.to_degrees()),
             None => format!("time {}", axis::number(frame.time, 5)),
         };
-        // The size of a mode is nobody's.
+        // The amplitude of a mode means nothing.
         if self.look.scale != 1.0 && frame.phase.is_none() {
             line += &format!(", displacements × {}", axis::number(self.look.scale, 4));
         }

@@ -5,8 +5,8 @@ use stickslip::math::{cross, norm, sub};
 use crate::field;
 use crate::skin::Skin;
 
-/// The part of the area at each end of the values that colours may leave out.
-const LEFT_OUT_AREA: f64 = 0.01;
+/// The part of the area, and of the points, at each end of the values that colours may leave out.
+const LEFT_OUT: f64 = 0.01;
 
 /// How much of what is drawn each point stands for: area of triangles, or in a plane length of the rim where only the rim has values. Zero where nothing is drawn.
 pub fn weights(skin: &Skin, values: &[f64], bodies: &[bool]) -> Vec<f64> {
@@ -32,25 +32,33 @@ pub fn weights(skin: &Skin, values: &[f64], bodies: &[bool]) -> Vec<f64> {
     weights
 }
 
-/// The range that holds 99 % of the area at each end: values beyond it are left out only where they are further from the rest than half of its width, as those of single nodes at
-/// corners and slivers are. `values`: each with the area that it stands for; `zero`: whether colours begin at zero.
+/// The range that holds 99 % of the area and 99 % of the points at each end: values beyond it are left out only where they are further from the rest than half of its width, as
+/// those of single nodes at corners and slivers are. Where the mesh is fine, as in teeth of gears that carry, a small area is what one looks at, and keeps its colours. `values`:
+/// each with the area that it stands for; `zero`: whether colours begin at zero.
 pub fn robust(mut values: Vec<[f64; 2]>, zero: bool) -> Option<[f64; 2]> {
     let all = field::range(values.iter().map(|v| v[0]))?;
     values.retain(|[value, weight]| value.is_finite() && *weight > 0.0);
     values.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let total: f64 = values.iter().map(|v| v[1]).sum();
-    let quantile = |part: f64| {
+    let quantile = |part: f64, weight: &dyn Fn(&[f64; 2]) -> f64| {
+        let total: f64 = values.iter().map(weight).sum();
         let mut sum = 0.0;
         let mut up = values.iter();
         let found = up.find(|v| {
-            sum += v[1];
+            sum += weight(v);
             sum >= part * total
         });
         found.map(|v| v[0])
     };
-    let (Some(low), Some(high)) = (quantile(LEFT_OUT_AREA), quantile(1.0 - LEFT_OUT_AREA)) else {
+    let ends = |weight: &dyn Fn(&[f64; 2]) -> f64| {
+        Some([
+            quantile(LEFT_OUT, weight)?,
+            quantile(1.0 - LEFT_OUT, weight)?,
+        ])
+    };
+    let (Some(area), Some(points)) = (ends(&|v| v[1]), ends(&|_| 1.0)) else {
         return Some(all);
     };
+    let [low, high] = [area[0].min(points[0]), area[1].max(points[1])];
     let width = if zero {
         high - low.min(0.0)
     } else {
@@ -79,6 +87,11 @@ mod tests {
             (0.0..0.2).contains(&low) && (0.98..1.0).contains(&high),
             "{low} {high}"
         );
+        // Two teeth of a gear that carry: little area, but many points.
+        let disc = (0..500).map(|i| [f64::from(i) / 500.0, 1.0]);
+        let teeth = (0..100).map(|i| [f64::from(i), 0.01]);
+        let gear = robust(disc.chain(teeth).collect(), false).unwrap();
+        assert!(gear[1] > 90.0, "{gear:?}");
         // A node that stands for more than a hundredth of the area is kept.
         let coarse = robust(vec![[1.0, 1.0], [2.0, 1.0], [100.0, 1.0]], false);
         assert_eq!(coarse, Some([1.0, 100.0]));

@@ -142,6 +142,14 @@ fn factor(size: f64, largest: f64) -> f64 {
     (lead * power).max(1.0)
 }
 
+/// The factor of the shape of a mode, whose amplitude means nothing, at which its largest displacement is a twentieth of the model.
+pub fn of_shape(size: f64, largest: f64) -> f64 {
+    match largest > 0.0 && size > 0.0 {
+        true => size / (20.0 * largest),
+        false => 1.0,
+    }
+}
+
 /// The factor of displacements that shows them well and moves no surface visibly to or from another. What sides move relative to each other is drawn that many
 /// times larger too, while the gap before any displacement is not.
 pub fn scale<'a>(size: f64, largest: f64, sheets: impl Iterator<Item = &'a Sheet>) -> f64 {
@@ -173,6 +181,9 @@ mod tests {
         assert_eq!(factor(2.0, 1e-6), 100_000.0);
         assert_eq!(factor(1.0, 0.0), 1.0);
         assert_eq!(factor(1.0, 0.04), 1.0);
+        // A mode has no size of its own: it is made smaller as well.
+        assert_eq!(of_shape(0.3, 1.0), 0.015);
+        assert_eq!([of_shape(1.0, 0.0), of_shape(0.0, 1.0)], [1.0; 2]);
     }
 
     #[test]

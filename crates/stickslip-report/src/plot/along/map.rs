@@ -15,6 +15,34 @@ use crate::field::{Field, Part, STATUS};
 use crate::sheet::Sheet;
 use crate::units::behind;
 
+/// Widths in heights of letters: the margin, the numbers at the left of a map, the colour bar at its right.
+const MARGIN: f64 = 1.6;
+const NUMBERS: f64 = 3.0;
+const BAR: f64 = 9.5;
+
+/// The room for each of two maps, and the way from the first to the second: side by side, or one above the other, whichever leaves them larger.
+fn layout(seen: Box2, [width, height]: [f64; 2], em: f64) -> ([f64; 2], [f64; 2]) {
+    let (tall, wide) = (seen[1][1] - seen[0][1], seen[1][0] - seen[0][0]);
+    let around = (NUMBERS + BAR) * em;
+    let beside = [
+        (width - 3.0 * MARGIN * em) / 2.0 - around,
+        height - 8.4 * em,
+    ];
+    let above = [
+        width - 2.0 * MARGIN * em - around,
+        (height - 12.0 * em) / 2.0,
+    ];
+    let fit = |room: [f64; 2]| (room[0] / wide.max(1e-300)).min(room[1] / tall.max(1e-300));
+    match fit(beside) >= fit(above) {
+        // As near as the first leaves room.
+        true => {
+            let step = fit(beside) * wide + around + MARGIN * em;
+            (beside, [step, 0.0])
+        }
+        false => (above, [0.0, above[1] + 4.0 * em]),
+    }
+}
+
 /// Draws both maps.
 pub fn draw(sheet: &Sheet, page: &Page, canvas: &mut dyn Canvas) -> Result<(), String> {
     let plan = unroll::plan(sheet);
@@ -44,7 +72,7 @@ pub fn draw(sheet: &Sheet, page: &Page, canvas: &mut dyn Canvas) -> Result<(), S
     });
     let [width, height] = page.size.map(f64::from);
     let em = (width.min(height * 1.4) / 62.0).clamp(9.0, 60.0);
-    let margin = 1.6 * em;
+    let margin = MARGIN * em;
     let title = shorten(&page.title, 1.35 * em, width - 2.0 * margin);
     canvas.text(
         [margin, 2.1 * em],
@@ -64,31 +92,19 @@ pub fn draw(sheet: &Sheet, page: &Page, canvas: &mut dyn Canvas) -> Result<(), S
         SOFT,
         false,
     );
-    let bar = 9.5 * em;
-    // Side by side, or one above the other, whichever leaves them larger.
-    let (tall, wide) = (seen[1][1] - seen[0][1], seen[1][0] - seen[0][0]);
-    let beside = [(width - 3.0 * margin) / 2.0 - bar, height - 8.4 * em];
-    let above = [width - 2.0 * margin - bar, (height - 12.0 * em) / 2.0];
-    let fit = |room: [f64; 2]| (room[0] / wide.max(1e-300)).min(room[1] / tall.max(1e-300));
-    let (room, step) = match fit(beside) >= fit(above) {
-        // As near as the first leaves room.
-        true => (beside, [fit(beside) * wide + 3.0 * em + bar + margin, 0.0]),
-        false => (above, [0.0, above[1] + 4.0 * em]),
-    };
+    let (room, step) = layout(seen, [width, height], em);
     let names = match sheet.tied() {
         true => ["TNORMAL", "TSHEAR"],
         false => ["CPRESS", STATUS],
     };
     for (k, name) in names.into_iter().enumerate() {
-        let at = [0, 1].map(|c| [margin + 3.0 * em, 5.6 * em][c] + k as f64 * step[c]);
-        let room = [room[0] - 3.0 * em, room[1]];
+        let at = [0, 1].map(|c| [margin + NUMBERS * em, 5.6 * em][c] + k as f64 * step[c]);
         let one = Panel {
             sheet,
             plan: &plan,
             seen,
             at,
             room,
-            bar,
             em,
         };
         one.draw(name, k == 1, page, canvas);
@@ -103,7 +119,6 @@ struct Panel<'a> {
     seen: Box2,
     at: [f64; 2],
     room: [f64; 2],
-    bar: f64,
     em: f64,
 }
 
@@ -160,7 +175,7 @@ impl Panel<'_> {
             // Those of this interface alone.
             statuses: Some([0.0, 1.0, 2.0].map(|s| values.iter().filter(|v| **v == s).count())),
         };
-        let size = [self.bar - 1.2 * em, area[1].max(12.0 * em)];
+        let size = [(BAR - 1.2) * em, area[1].max(12.0 * em)];
         legend::bar(&shown, place, size, em, canvas);
         if arrows {
             self.arrows(area, &frame, canvas);
@@ -273,6 +288,32 @@ impl Panel<'_> {
             let end = [p[0] + along(right), p[1] - along(up)];
             let dark = ink(self.sheet, i).map(|c| (f64::from(c) * 0.45) as u8);
             arrow(p, end, dark, em, canvas);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Maps with their numbers and legends stay on the page, whatever their shape; of long ones the second is below the first.
+    #[test]
+    fn both_maps_fit_on_the_page() {
+        for [width, height] in [[1200.0, 900.0], [1000.0, 520.0], [1000.0, 420.0]] {
+            for wide in [0.2, 1.0, 3.0, 20.0] {
+                let em = f64::min(width, height * 1.4) / 62.0;
+                let (room, step) = layout([[0.0; 2], [wide, 1.0]], [width, height], em);
+                let zoom = f64::min(room[0] / wide, room[1]);
+                let right = (MARGIN + NUMBERS + BAR) * em + step[0] + zoom * wide;
+                let below = 5.6 * em + step[1] + zoom;
+                assert!(right <= width - 0.5 * MARGIN * em, "{right} {width} {wide}");
+                assert!(below <= height - em, "{below} {height} {wide}");
+                assert!(wide != 0.2 || step[0] > 0.0, "tall maps stand side by side");
+                assert!(
+                    wide != 20.0 || step[1] > 0.0,
+                    "long maps lie one below the other"
+                );
+            }
         }
     }
 }
