@@ -840,7 +840,7 @@ fn what_an_interface_carries_is_drawn_along_it_and_written_as_a_table() {
         // Results of an older version have no surfaces, and pictures of the bodies all the same.
         std::fs::remove_file(folder.file("interfaces.pvd")).unwrap();
         let error = along("j.png", "joint", Zoom::Auto).unwrap_err();
-        assert!(error.contains("run it again"), "{error}");
+        assert!(error.contains("Run the problem again"), "{error}");
         plot::picture(&folder.0, None, &Picture::default()).unwrap();
         let contact = Picture {
             zoom: Zoom::Contact,

@@ -6,7 +6,7 @@ use crate::print;
 /// Print the JSON schema of problem files, for editors.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Save it beside the problem file, whose first line `#:schema ./stickslip.schema.json` names it."
+    after_help = "Save the schema beside the problem file, and begin the problem file with the line `#:schema ./stickslip.schema.json`."
 )]
 pub struct Arguments {}
 

@@ -96,7 +96,7 @@ fn check_reads_a_deck_for_those_who_solve_it_elsewhere() {
         "amplitudes that nothing uses: IDLE",
         "surfaces that nothing uses: INTERNAL_SURFACE-2",
         "1 nodes are in no element, the first is 9999",
-        "look the same way",
+        "face the same direction",
         "no stick slope",
     ] {
         assert!(

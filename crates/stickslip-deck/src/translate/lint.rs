@@ -126,8 +126,8 @@ fn of_pair(deck: &Deck, bodies: &Bodies, pair: &Pair) -> Vec<(String, &'static s
     let plain = |n: Vec3, area: f64| norm(n) > 0.5 * area;
     if plain(ns, area_s) && plain(nm, area_m) && dot(ns, nm) > 0.5 * norm(ns) * norm(nm) {
         out.push((
-            format!("the surfaces {} and {} look the same way: they can never touch", pair.slave, pair.master),
-            "one of them consists of the faces on the far side of its body; check the numbers of the faces (S1 to S6)",
+            format!("the surfaces {} and {} face the same direction: they cannot touch", pair.slave, pair.master),
+            "one surface probably lies on the opposite side of its body; check its face numbers (S1 to S6)",
         ));
     }
     let (size_s, size_m) = (area_s / slave.len() as f64, area_m / master.len() as f64);

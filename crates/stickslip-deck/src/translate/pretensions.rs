@@ -151,7 +151,7 @@ fn across(job: &mut Job, node: u64, forces: &[loads::Forces], held: &[supports::
                 job.deck.label(node),
                 component + 1
             ),
-            "direction 1 is along the bolt: the force by *CLOAD, the shortening by *BOUNDARY",
+            "use direction 1, along the bolt: *CLOAD prescribes the force, *BOUNDARY the shortening",
         );
     }
 }

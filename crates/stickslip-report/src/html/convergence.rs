@@ -14,8 +14,8 @@ pub fn section(results: &Results) -> String {
     let mut out = String::new();
     if let Some(method) = s["method"].as_str().filter(|m| !m.is_empty()) {
         out += &format!(
-            "<p>Systems of equations were solved by the method <b>{}</b>. {} increments were accepted with {} Newton iterations; \
-             {} attempts were cut back, {} more to find changes of status in time.</p>\n",
+            "<p>Linear solver: <b>{}</b>. Accepted increments: {}. Newton iterations: {}. Increments repeated after failures: {}; \
+             repeated to locate changes of contact status: {}.</p>\n",
             text(method),
             count(&s["increments"]),
             count(&s["iterations"]),

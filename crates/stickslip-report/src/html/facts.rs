@@ -82,21 +82,17 @@ pub fn header(results: &Results, title: &str, modes: bool) -> String {
     }
     let mut facts = Vec::new();
     let size = &s["size"];
-    for (key, word) in [
-        ("points", "points"),
-        ("cells", "cells"),
-        ("contact-points", "contact points"),
-    ] {
-        if let Some(n) = size[key].as_u64() {
-            facts.push(format!("<b>{n}</b> {word}"));
-        }
-    }
-    for (key, word) in [
-        ("increments", "increments"),
-        ("iterations", "Newton iterations"),
-    ] {
-        if let Some(n) = s[key].as_u64() {
-            facts.push(format!("<b>{n}</b> {word}"));
+    let counts = [
+        (&size["points"], "point"),
+        (&size["cells"], "cell"),
+        (&size["contact-points"], "contact point"),
+        (&s["increments"], "increment"),
+        (&s["iterations"], "Newton iteration"),
+    ];
+    for (count, word) in counts {
+        if let Some(n) = count.as_u64() {
+            let end = if n == 1 { "" } else { "s" };
+            facts.push(format!("<b>{n}</b> {word}{end}"));
         }
     }
     if let Some(total) = s["phases"]["total"].as_f64() {

@@ -62,7 +62,7 @@ pub fn section(results: &Results) -> String {
             "<p>At least one figure is above its limit: look at it before you use the results.</p>\n"
         }
         _ => {
-            "<p>The worst of each figure over all increments, beside the limit of the problem. All are without dimension.</p>\n"
+            "<p>The largest value of each figure over all increments, beside its limit. All figures are dimensionless.</p>\n"
         }
     };
     lead.to_string()

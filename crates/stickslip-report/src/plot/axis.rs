@@ -42,6 +42,25 @@ pub fn number(value: f64, digits: usize) -> String {
     text.replace('-', "−")
 }
 
+/// The labels of ticks: all with the exponent of the largest where one of them needs an exponent.
+pub fn labels(ticks: &[f64], digits: usize) -> Vec<String> {
+    let alone: Vec<String> = ticks.iter().map(|t| number(*t, digits)).collect();
+    let largest = ticks.iter().fold(0.0, |m: f64, t| m.max(t.abs()));
+    if largest == 0.0 || !alone.iter().any(|text| text.contains('e')) {
+        return alone;
+    }
+    let exponent = 3 * (largest.log10() / 3.0 + 1e-9).floor() as i32;
+    let label = |t: &f64| match (*t == 0.0, exponent) {
+        (true, _) => "0".to_string(),
+        (_, 0) => trimmed(&format!("{t:.digits$}")).replace('-', "−"),
+        _ => {
+            let value = trimmed(&format!("{:.digits$}", t / 10f64.powi(exponent)));
+            format!("{value}e{exponent}").replace('-', "−")
+        }
+    };
+    ticks.iter().map(label).collect()
+}
+
 /// The least and the largest value in words.
 pub fn between(values: [f64; 2]) -> String {
     values.map(|x| number(x, 3)).join(" … ")
@@ -76,6 +95,17 @@ mod tests {
             let ticks = ticks(low, high, 6);
             assert!((3..=8).contains(&ticks.len()), "{ticks:?}");
         }
+    }
+
+    #[test]
+    fn labels_of_an_axis_share_their_exponent() {
+        let of = |ticks: &[f64]| labels(ticks, 5).join(" ");
+        assert_eq!(of(&[0.0, 5e-5, 1e-4, 1.5e-4]), "0 50e−6 100e−6 150e−6");
+        assert_eq!(of(&[-5e-5, 0.0, 2.5e-3]), "−0.05e−3 0 2.5e−3");
+        assert_eq!(of(&[0.0, 5e5, 1e6]), "0 0.5e6 1e6");
+        assert_eq!(of(&[0.0, 0.5, 1.0]), "0 0.5 1");
+        assert_eq!(of(&[0.0, 5e-5, 2.0]), "0 0.00005 2");
+        assert_eq!(of(&[0.0]), "0");
     }
 
     #[test]

@@ -63,10 +63,9 @@ impl<'a> Chart<'a> {
         let all = lines.iter().flat_map(|(_, y)| y.iter().enumerate());
         let all = all.filter(|(i, _)| inside(*i)).map(|(_, y)| *y);
         let ends = spread(crate::field::range(all)?, 0.05);
-        let labels: Vec<(f64, String)> = axis::ticks(ends[0], ends[1], 7)
-            .into_iter()
-            .map(|t| (t, axis::number(t, 5)))
-            .collect();
+        let ticks = axis::ticks(ends[0], ends[1], 7);
+        let texts = axis::labels(&ticks, 5);
+        let labels: Vec<(f64, String)> = ticks.into_iter().zip(texts).collect();
         let wide = labels.iter().map(|(_, text)| text_width(text, em));
         Some(Side {
             ends,
@@ -114,11 +113,12 @@ impl<'a> Chart<'a> {
             let at = [right + 0.6 * em, y + 0.36 * em];
             canvas.text(at, label, em, Anchor::Start, SOFT, false);
         }
-        for tick in axis::ticks(x0, x1, 8) {
-            let x = px(tick);
+        let ticks = axis::ticks(x0, x1, 8);
+        for (tick, text) in ticks.iter().zip(axis::labels(&ticks, 5)) {
+            let x = px(*tick);
             canvas.line(&[[x, top], [x, bottom]], Pen::new(GRID_INK, 0.07 * em));
             let at = [x, bottom + 1.5 * em];
-            canvas.text(at, &axis::number(tick, 5), em, Anchor::Middle, SOFT, false);
+            canvas.text(at, &text, em, Anchor::Middle, SOFT, false);
         }
         let mut frame = vec![[left, top], [left, bottom], [right, bottom]];
         frame.extend(other.as_ref().map(|_| [right, top]));

@@ -112,16 +112,15 @@ fn scale(colours: &Scale, [x, y]: [f64; 2], height: f64, em: f64, canvas: &mut d
             .collect(),
         _ => axis::ticks(low, high, 7),
     };
-    for tick in ticks {
+    for (tick, text) in ticks.iter().zip(axis::labels(&ticks, 3)) {
         let share = if high > low {
-            (tick - low) / (high - low)
+            (*tick - low) / (high - low)
         } else {
             0.5
         };
         let place = y + (1.0 - share) * height;
         let pen = Pen::new(INK, 0.07 * em);
         canvas.line(&[[x + 1.5 * em, place], [x + 1.9 * em, place]], pen);
-        let text = axis::number(tick, 3);
         let place = [x + 2.2 * em, place + 0.34 * em];
         canvas.text(place, &text, 0.92 * em, Anchor::Start, INK, false);
     }

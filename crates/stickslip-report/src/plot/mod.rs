@@ -178,7 +178,7 @@ pub fn animate(
     if count < 2 {
         return Err(fault(
             directory,
-            "fields were written at one time only, and nothing moves: `output.fields` says at how many",
+            "fields were written at one time only: there is no motion to draw. `output.every = 1` writes them after every increment",
         ));
     }
     let frames: Vec<usize> = (0..count).collect();

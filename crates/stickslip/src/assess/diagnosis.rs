@@ -241,23 +241,29 @@ fn inspect(interface: &InterfaceDefinition, gaps: &[f64]) -> InterfaceReport {
     }
 }
 
+/// A coordinate of a body of this size, for people: rounding errors of meshers are zero.
+fn coordinate(x: f64, size: f64) -> String {
+    match x.abs() < 1e-9 * size {
+        true => "0".into(),
+        false => digits(x, 7),
+    }
+}
+
 impl fmt::Display for CheckReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "bodies")?;
         for b in &self.bodies {
+            let size = (0..3).map(|c| b.high[c] - b.low[c]).fold(0.0, f64::max);
+            let corner = |x: [f64; 3]| x.map(|v| coordinate(v, size)).join(", ");
             writeln!(
                 f,
-                "  {}: {} points, {} cells ({}), from ({}, {}, {}) to ({}, {}, {})",
+                "  {}: {} points, {} cells ({}), from ({}) to ({})",
                 b.name,
                 b.points,
                 b.cells,
                 b.kinds,
-                b.low[0],
-                b.low[1],
-                b.low[2],
-                b.high[0],
-                b.high[1],
-                b.high[2]
+                corner(b.low),
+                corner(b.high)
             )?;
             if let Some(mass) = b.rigid {
                 writeln!(f, "    rigid, of mass {mass}", mass = digits(mass, 5))?;
@@ -277,7 +283,7 @@ impl fmt::Display for CheckReport {
             if i.paired == 0 {
                 writeln!(
                     f,
-                    "    nothing lies opposite: the interface cannot close from here"
+                    "    no point has the primary opposite: the surfaces lie beside each other"
                 )?;
             } else {
                 writeln!(

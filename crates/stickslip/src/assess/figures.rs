@@ -37,7 +37,7 @@ pub(crate) fn advice(help: &str, findings: &[Finding]) -> String {
             f.cause
         ),
         Some(f) => format!(
-            "look at the finding `{}` first, which may be why; if it is meant: {help}",
+            "the finding `{}` may be the cause: look at it first. If the model is meant to be so: {help}",
             f.cause
         ),
         None => help.to_string(),
@@ -84,7 +84,7 @@ pub(crate) static PENETRATION_TO_SIZE: Kind = Kind {
     own: 0.0,
     model: 0.0,
     what: "penetration of the surfaces over the size of the cell beneath",
-    help: "raise the `factor` of the enforcement, or use enforcement.augmented-lagrangian",
+    help: "raise the penalty factor (`interface.NAME.enforcement.penalty.factor`), or use `enforcement.augmented-lagrangian`",
 };
 
 // Of energies, which go with the square of forces.
@@ -93,7 +93,7 @@ pub(crate) static PENETRATION_TO_APPROACH: Kind = Kind {
     own: LEAST_FORCE * LEAST_FORCE,
     model: TRACE_OF_FORCE * TRACE_OF_FORCE,
     what: "penetration over the elastic approach; forces have about the same relative error",
-    help: "raise the `factor` of the enforcement, or use enforcement.augmented-lagrangian",
+    help: "raise the penalty factor (`interface.NAME.enforcement.penalty.factor`), or use `enforcement.augmented-lagrangian`",
 };
 
 pub(crate) static ELASTIC_SLIP: Kind = Kind {
@@ -210,7 +210,7 @@ pub(crate) static ROTATION_TO_APPROACH: Kind = Kind {
     own: LEAST_FORCE * LEAST_FORCE,
     model: TRACE_OF_FORCE * TRACE_OF_FORCE,
     what: "rotations are assumed small, and the second-order term they neglect in the gap is this part of the elastic approach; pressures have about the same relative error",
-    help: "let the body turn in a frame: `body.NAME.rotation.with` of the reference point that turns it, `rotation = \"large\"` of what turns freely, `rotation = \"corotational\"` of what bends",
+    help: "allow the body large rotations: `body.NAME.rotation.with = \"POINT\"` if a reference point turns it, `rotation = \"large\"` if it turns freely, `rotation = \"corotational\"` if it bends",
 };
 
 pub(crate) static LOCAL_ROTATION: Kind = Kind {
@@ -235,7 +235,7 @@ pub(crate) static PRESTRESS: Kind = Kind {
     own: 0.0,
     model: 0.0,
     what: "relative change of a frequency by the stress at the start, which is neglected",
-    help: "take the frequencies for those of the body without stress, or another program for bodies that are pressed or drawn so far that it shows",
+    help: "use the frequencies as those of the unstressed body, or use a program with stress stiffening",
 };
 
 pub(crate) static MODE_RESIDUAL: Kind = Kind {
@@ -284,7 +284,7 @@ pub(crate) static SCHEME_DISSIPATION: Kind = Kind {
     own: 1.0,
     model: 1.0,
     what: "numerical dissipation of the time integration over the energy stored and dissipated; velocities are too low by half of it",
-    help: "take smaller increments, or a scheme that dissipates less: `dynamic.contact-at = \"stage\"` where laws are compliant, `rho` nearer to 1; what the scheme is meant to damp is the noise of a mesh, which has little energy",
+    help: "take smaller increments, or a scheme with less numerical dissipation: `rho` nearer to 1, and `dynamic.contact-at = \"stage\"` if the normal laws are compliant. Numerical dissipation should only damp the noise of the mesh, which has little energy",
 };
 
 pub(crate) static ENERGY: Kind = Kind {
@@ -292,7 +292,7 @@ pub(crate) static ENERGY: Kind = Kind {
     own: 1.0,
     model: 1.0,
     what: "relative error of the energy balance",
-    help: "take smaller increments, or add damping where bodies bounce; in quasi-static steps forces are not made of it, but where smaller increments do not close it something acts along another direction than gaps have: look at edges that press, at bodies that turn by small rotations, and at `small-sliding`",
+    help: "take smaller increments, or add damping where bodies bounce. In quasi-static steps the forces do not depend on the energy balance. If smaller increments do not reduce the error, contact forces act along other directions than the gaps: look at edges in contact, at small rotations, and at `small-sliding`",
 };
 
 /// What a figure came to after an increment.

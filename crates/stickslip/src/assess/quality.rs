@@ -171,14 +171,14 @@ pub(crate) fn judge_energy(
     // A quasi-static energy balance that is off by more than a thousandth of the energy stored and dissipated is worth a note.
     if !moves && open > 1e-3 * scale {
         notes.push(format!(
-            "the error of the energy balance is {:.1} % of the energy stored and dissipated, and so is that of works and losses. Smaller increments reduce the part that comes from changes within an increment; the rest comes from forces along other directions than the gaps, as at edges in contact or with small rotations",
+            "energy balance error: {:.1} % of the energy stored and dissipated; expect this error in works and losses. Smaller increments reduce the part from changes of contact status within increments; the rest comes from contact forces along other directions than the gaps, as at edges or with small rotations",
             100.0 * open / scale
         ));
     }
     // The same of what is not known of friction.
     if !moves && unknown > 1e-2 * scale {
         notes.push(format!(
-            "friction took {}, ± {unknown}: points began to slide within increments, at times that are not known. Smaller increments make it less",
+            "frictional dissipation: {} ± {unknown}. Points begin to slide within increments, and the time within the increment is not resolved. Smaller increments reduce this uncertainty",
             figure(ledger.friction),
             unknown = digits(unknown, 2),
         ));

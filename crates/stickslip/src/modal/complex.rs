@@ -199,7 +199,7 @@ fn notes(linear: &Linear) -> Vec<String> {
     }
     if stick > 0 && steady > 0 {
         notes.push(format!(
-            "{stick} sticking points: full tangential stiffness"
+            "{stick} sticking or tied points have their full tangential stiffness"
         ));
     }
     if linear.damping.is_none() {

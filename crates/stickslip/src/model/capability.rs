@@ -117,7 +117,7 @@ pub static LIMITS: &[Limit] = &[
     Limit {
         subjects: &[Free, RigidFree],
         features: &[Steady, Modes, ComplexModes, Harmonic],
-        why: "turns freely by any angle, which such a step does not know of",
+        why: "turns freely by any angle, which such a step does not support",
         help: LEAVE_STEP,
     },
     Limit {
@@ -129,7 +129,7 @@ pub static LIMITS: &[Limit] = &[
     Limit {
         subjects: &[Cells],
         features: &[Condensed, Multigrid],
-        why: "turns cell by cell, so that what it resists with is not linear",
+        why: "turns cell by cell (corotational): its stiffness is not constant",
         help: "take \"sparse\", or leave the key out",
     },
     Limit {

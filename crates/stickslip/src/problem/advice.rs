@@ -36,7 +36,7 @@ pub(super) const USUAL: &[(&str, &[&str])] = &[
 const WORDLESS: &[(&[&str], &str)] = &[
     (
         &["gap"],
-        "the gap is the one that the meshes leave: `body.NAME.translate = [0, 0.1]` moves one of them, and `interface.NAME.initial` says what becomes of a gap",
+        "the initial gap follows from the meshes: move a body by `body.NAME.translate = [0, 0.1]`; `interface.NAME.initial` closes or keeps an initial gap",
     ),
     (
         &["3d", "3D", "three-dimensional"],
@@ -135,6 +135,13 @@ const PLACES: usize = 3;
 /// Longest value that is repeated.
 const LONGEST_VALUE: usize = 40;
 
+/// Whether a key takes the name of one set.
+fn wants_one_set(path: &[String], expected: &Expected) -> bool {
+    let sets = ["set", "secondary", "primary"];
+    let key = path.last().is_some_and(|key| sets.contains(&key.as_str()));
+    key && expected.allows("string") && !expected.allows("array")
+}
+
 /// What to write where a table, or a list of tables, is wanted at `path` and something else was found.
 pub(super) fn place(
     root: &Json,
@@ -143,6 +150,15 @@ pub(super) fn place(
     found: &Value,
 ) -> Option<String> {
     let schema = Schema { root };
+    if let (DeValue::Array(names), true) = (found, wants_one_set(path, expected)) {
+        let names = names.iter().filter_map(|name| name.get_ref().as_str());
+        let names: Vec<String> = names.map(|name| format!("\"{name}\"")).collect();
+        return Some(format!(
+            "one set is wanted here: join several by `set.all.union = [{}]`, and write `{} = \"all\"`",
+            names.join(", "),
+            path.last().map_or("set", String::as_str)
+        ));
+    }
     if let Some(example) = misnamed(&schema, path, found) {
         return Some(example);
     }

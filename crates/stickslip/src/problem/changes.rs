@@ -61,7 +61,7 @@ pub fn changed_keys(
             let key = path.join(".");
             let message = format!("`{key}` has changed since the run began");
             Diagnostic::new(key, message).help(
-                "a run goes on with what it began with: `output`, `title`, the duration of the step at hand and later steps may change; for the rest run again",
+                "`resume` accepts changes of `output`, `title`, the duration of the present step and later steps only; for other changes run again",
             )
         })
         .collect();

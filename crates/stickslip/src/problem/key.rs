@@ -27,7 +27,9 @@ pub(super) fn parse(path: &str) -> Result<Vec<String>, String> {
         if !quoted && !is_bare(segment) {
             return Err(match segment {
                 "" => format!("`{path}` has an empty part"),
-                _ => format!("`{segment}` in `{path}` has to be quoted"),
+                _ => format!(
+                    "`{segment}` in `{path}` is no key: entries of lists are counted from 1 or called by their name (`step.2`, `step.press`), other signs need quotes"
+                ),
             });
         }
         segments.push(segment.to_string());

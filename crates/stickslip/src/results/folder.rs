@@ -109,7 +109,7 @@ impl Folder {
             Some(lock) if !lock.stands() => Err(fault(
                 &self.directory,
                 format!(
-                    "the folder, or the {} in it, was removed while the run wrote to it: results before this time are lost; run again into another folder",
+                    "the result folder or its {} was removed during the run: earlier results are lost. Run again with another folder (`-o DIR`)",
                     LOCK
                 ),
             )),

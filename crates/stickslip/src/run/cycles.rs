@@ -154,7 +154,7 @@ pub(super) fn end_block(
         jumps.wish = left as f64;
         if chosen.largest.is_none_or(|most| most >= left) {
             run.solver.log.notes.push(format!(
-                "step `{}`: what a cycle dissipates stays the same from cycle {after} on, but for the error: the next one stands for all that are left",
+                "step `{}`: the dissipation of a cycle is constant from cycle {after} on, within the error: the next cycle represents all remaining ones",
                 run.step().name
             ));
         }

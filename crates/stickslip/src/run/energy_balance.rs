@@ -39,7 +39,7 @@ pub(super) fn check_energy_balance(
         let was_vain = running.no_progress;
         if is_to_halve(running, length, [opened, may], resolved, smallest) {
             let message = format!(
-                "the balance of energies opens by {opened} over the increment, more than its share of what the limit leaves",
+                "the energy balance error of the increment is {opened}, more than its share of the limit",
                 opened = figure(opened)
             );
             return Err(StepFailure::new(Cause::TooFar, message));

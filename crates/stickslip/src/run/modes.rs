@@ -42,9 +42,9 @@ pub(super) fn find_kick(run: &mut Run, step: usize) -> Result<Option<Kick>, Erro
         let found = outcome.modes.len();
         let message = match plan.mode {
             Some(number) => {
-                format!("there is no mode {number} to begin along: {found} were found")
+                format!("the initial motion needs mode {number}, but only {found} modes were found")
             }
-            None => "there is no mode to begin along: none was found".into(),
+            None => "the initial motion needs a mode, but none was found".into(),
         };
         return Err(modal::linear::fault(&run.frame, message).into());
     };

@@ -95,7 +95,7 @@ pub(crate) fn check_way<'a>(
     for interface in contacts {
         if let Some(deep) = look::tunnels(interface, ends.map(|s| &*s.u), ends.map(|s| s.t)) {
             let message = format!(
-                "interface `{}`: bodies overlap by {deep} on the way to what was found: an axle that nothing but contact holds has turned through what it touches",
+                "interface `{}`: bodies overlap by {deep} within the increment: a body on an axle, held by contact alone, turned through its neighbour",
                 interface.name,
                 deep = figure(deep)
             );

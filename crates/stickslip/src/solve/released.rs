@@ -38,7 +38,7 @@ pub fn note_released(solver: &mut Solver, model: &Model, frame: &Frame, accepted
     for (body, name) in released {
         floating.told.push(body);
         solver.log.notes.push(format!(
-            "{}: nothing presses body {name} any more at {}; it stays where it was",
+            "{}: body {name} lost all contact at {}; it stays where it was",
             model.steps[frame.step].name,
             digits(accepted.state.t, 6)
         ));

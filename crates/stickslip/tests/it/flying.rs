@@ -401,7 +401,7 @@ fn what_such_bodies_cannot_bear_is_refused() {
         };
         assert!(found.contains(part), "{found}");
     };
-    expect("\n[[step]]\nmodes.count = 3\n", "does not know of");
+    expect("\n[[step]]\nmodes.count = 3\n", "does not support");
     expect(
         "\n[support.rail]\nset = \"tyre.bore\"\ny = 0\n",
         "all directions",

@@ -262,9 +262,7 @@ fn a_thousand_cycles_that_repeat_cost_a_few() {
     assert_eq!(cycles.last("CYCLES"), 1000.0);
     let notes = &some.summary.notes;
     assert!(
-        notes
-            .iter()
-            .any(|n| n.contains("stays the same from cycle")),
+        notes.iter().any(|n| n.contains("is constant from cycle")),
         "{notes:?}"
     );
     let mut all = cylinder(0.005, "count = 4", 16, "");

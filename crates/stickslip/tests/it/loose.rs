@@ -418,7 +418,7 @@ fn a_pin_that_is_let_go_stays_where_it_was() {
         let said = summary
             .notes
             .iter()
-            .any(|n| n.contains("nothing presses body pin"));
+            .any(|n| n.contains("body pin lost all contact"));
         assert!(said, "{what}: {:?}", summary.notes);
         // It has come up by the clearance, less what the hole gave way, and is stress-free there: its points have moved as one.
         let [top, side] = ["top.U2", "side.U2"].map(|name| outcome.last(name));
@@ -504,7 +504,7 @@ step = [{ name = "press" }, { name = "open" }, { name = "again" }]
     assert!(
         notes
             .iter()
-            .any(|n| n.contains("open: nothing presses body mid")),
+            .any(|n| n.contains("open: body mid lost all contact")),
         "{notes:?}"
     );
     let rows = &outcome.record.increments;

@@ -53,7 +53,7 @@ fn end(text: &str, method: &str) -> (Vec<f64>, Statistics) {
     // A note on the ledger is none on the way to solve.
     let notes = simulation.summary.notes.iter();
     let others = notes.filter(|n| {
-        !n.starts_with("the error of the energy balance") && !n.starts_with("friction took")
+        !n.starts_with("energy balance error") && !n.starts_with("frictional dissipation")
     });
     let others: Vec<&String> = others.collect();
     assert!(others.is_empty(), "{others:?}");

@@ -584,7 +584,7 @@ fn what_rigid_bodies_that_turn_cannot_bear_is_refused() {
     let base = tyre("automatic", [0.5, 0.0, 0.0], [0.0, -9.81], 0.1);
     expect(
         &format!("{base}\n[[step]]\nmodes.count = 3\n"),
-        "does not know of",
+        "does not support",
     );
     let spring = "\n[load.spring]\nset = \"tyre.bore\"\nspring.stiffness = [1, 1]\n";
     expect(&format!("{base}{spring}"), "would turn");

@@ -199,7 +199,11 @@ const SAYS: &[(&str, &str)] = &[
     ),
     (
         "interface.a.gap = 0.1",
-        "the gap is the one that the meshes leave",
+        "the initial gap follows from the meshes",
+    ),
+    (
+        "support.a.set = [\"b.left\", \"b.right\"]",
+        "join several by `set.all.union = [\"b.left\", \"b.right\"]`, and write `set = \"all\"`",
     ),
     (
         "interface.a.kinematics = \"small\"",

@@ -123,7 +123,7 @@ impl Account {
                         each.collect::<Vec<_>>().join(", ")
                     ),
                     culprits: named(parts, &|part| format!("{} of the friction problem's error", digits(part, 2))),
-                    help: "`run --dump-failures DIR` writes the friction problem, and `stickslip friction` solves it alone".into(),
+                    help: "to report this: `run --dump-failures DIR` saves the contact problem of this increment, and `stickslip friction FILE` repeats it without the bodies".into(),
                 }
             }
             End::Restless(changes) => {
@@ -156,7 +156,7 @@ impl Account {
                     failure.message
                 ),
                 culprits: failure.culprits.clone(),
-                help: "a smoother law, or a finer mesh on both sides: what the friction problem leaves out is the curvature of laws and surfaces at these points".into(),
+                help: "use a smoother law, or a finer mesh on both sides: the curvature of laws and surfaces at these points prevents convergence".into(),
             },
         }
     }

@@ -16,6 +16,7 @@ use self::page::Page;
 use super::picture::{Units, When, Zoom};
 use super::{axis, files, history};
 use crate::draw::{Canvas, Svg};
+use crate::field::{Field, Part};
 use crate::results::{Results, fault};
 use crate::sheet::Sheet;
 use crate::units::behind;
@@ -125,25 +126,26 @@ fn lines(
     file: &Path,
 ) -> Result<(), Error> {
     let frames = files::chosen(results, wanted.when, Some(field))?;
-    let lines = over::table(results, surface, field, wanted.zoom, &frames)?;
+    let mut lines = over::table(results, surface, field, wanted.zoom, &frames)?;
     if is_table(file) {
         return csv::write(file, &lines);
+    }
+    let units = wanted.units.clone().unwrap_or_else(|| Units::of(results));
+    let single = Field {
+        name: field.into(),
+        array: field.into(),
+        part: Part::Component(0),
+    };
+    let named = format!("{field}{}", behind(units.of_field(&single)));
+    for name in &mut lines.names[1..] {
+        *name = name.replacen(field, &named, 1);
     }
     let mut canvas = files::canvas(file, wanted.size)?;
     let columns = history::Columns {
         left: lines.names[1..].to_vec(),
         right: Vec::new(),
         against: "S".into(),
-        label: format!(
-            "length along the surface{}",
-            behind(
-                &wanted
-                    .units
-                    .clone()
-                    .unwrap_or_else(|| Units::of(results))
-                    .length
-            )
-        ),
+        label: format!("length along the surface{}", behind(&units.length)),
     };
     let (size, drawn_on) = (wanted.size, canvas.as_mut());
     history::draw(results, &lines, surface, &columns, size, drawn_on)?;
@@ -170,7 +172,7 @@ pub(crate) fn drawings(results: &Results) -> Result<Vec<String>, Error> {
         let time = axis::number(results.frames[frame].time, 4);
         let page = Page {
             title: sheet.name.clone(),
-            words: format!("at time {time}, at which contact presses most"),
+            words: format!("at time {time}, that of the largest contact pressure"),
             units: Units::of(results),
             zoom: Zoom::Auto,
             size,
@@ -198,7 +200,7 @@ fn names(results: &Results) -> Result<Vec<&str>, Error> {
     match names.is_empty() {
         true => Err(fault(
             &results.directory,
-            "it has no surfaces of interfaces: the problem has no interface, or the results are of an older version; run it again",
+            "the results have no surfaces of interfaces: the problem has no interface, or an older version wrote the results. Run the problem again",
         )),
         false => Ok(names),
     }

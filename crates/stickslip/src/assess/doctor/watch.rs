@@ -176,7 +176,7 @@ fn deep(interface: ContactView) -> Option<Finding> {
     }
     let name = &interface.name;
     let finding = DoctorCause::DeepWear.warning(format!(
-        "interface {name}: what is worn off {}. It is added to gaps, and normals and surfaces stay as they were: that holds to first order",
+        "interface {name}: the wear depth {}. Wear depth is added to the gaps while normals and surfaces stay as meshed, which is a first-order approximation",
         said.join(" and ")
     ));
     Some(
@@ -201,7 +201,7 @@ fn left(view: &View, interface: ContactView, watch: &Watch) -> Option<Finding> {
     let name = &interface.name;
     // What is thrown may well fly on.
     let finding = DoctorCause::LeftPrimary.warning(format!(
-        "interface {name} carries nothing any more after time {}: what carried last has gone over the edge of the primary, and nothing lies opposite",
+        "interface {name} lost contact after time {}: its last loaded points slid over the edge of the primary",
         digits(watch.carried_at, 5),
     ))
     .note_unless(!view.model.moves());
@@ -218,7 +218,7 @@ fn left(view: &View, interface: ContactView, watch: &Watch) -> Option<Finding> {
         finding
             .blame_all(beyond)
             .advise("let the primary reach as far as the motion goes, or let the motion end before its edge")
-            .advise("if contact may end there, the result is right: what the model does after that time is not held by this interface"),
+            .advise("if the bodies are meant to separate, the result is right; after that time this interface supports nothing"),
     )
 }
 
@@ -251,7 +251,7 @@ fn coarse(interface: &InterfaceDefinition, watch: &Watch) -> Option<Finding> {
     }
     .blame(Suspect::interface(name, format!("{points} in contact")));
     finding = finding.advise(
-        "refine the secondary where it is touched: pressures and the extent of contact need several points across; what the force is off shows when the mesh is halved",
+        "refine the secondary in the contact: pressures and contact width need several points across it. Halve the cells to estimate the error of the force",
     );
     Some(finding)
 }

@@ -221,7 +221,7 @@ pub(super) fn agree_with_supports(
                 Some(body) => format!("in {} motions of rigid body `{body}`", wrong.len()),
                 None if point >= mesh.points.len() => "at the reference point".into(),
                 None => format!(
-                    "at {} points, the first being node {} in {}",
+                    "at {} points; the first is node {} of {}",
                     wrong.len(),
                     mesh.point_ids[point],
                     ["x", "y", "z"][component]

@@ -66,7 +66,7 @@ fn normal(problem: &Problem, findings: &mut Findings, key: &[&str], given: &[f64
     if normalize(n).is_none() {
         findings.add(key, "the normal is zero", "");
     } else if problem.model.space == SpaceKind::Axisymmetric && n[0] != 0.0 {
-        let help = "write normal = [0, 1]: what is cut across the radius is a ring, and no bolt";
+        let help = "write normal = [0, 1]: around an axis a bolt is cut across the axis";
         findings.add(key, "the normal is not along the axis", help);
     }
 }

@@ -94,7 +94,7 @@ fn modal(findings: &mut Findings, i: &str, step: &Step) {
     ];
     for (other, _) in of_motion.iter().filter(|(_, given)| *given) {
         let message =
-            format!("nothing moves in a step with `{key}`: `{other}` has no meaning in it");
+            format!("a step with `{key}` has no motion, so `{other}` has no meaning in it");
         let help = format!("give `{other}` to a step before");
         findings.add(&["step", i, other], message, help);
     }

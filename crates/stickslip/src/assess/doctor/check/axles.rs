@@ -52,7 +52,7 @@ fn far(scene: &Scene, reference: &Reference) -> Option<Finding> {
     let name = &reference.name;
     (nearest.is_finite() && size > 0.0 && nearest > SIZE_RATIO * size).then(|| {
         DoctorCause::MixedUnits.warning(format!(
-            "reference point {name} is {nearest} away from what goes with it, {:.0} times the size of that, {size}: is one in millimetres and the other in metres?",
+            "reference point {name} is {nearest} away from the bodies and surfaces that move with it, {:.0} times their size {size}: is one in millimetres and the other in metres?",
             nearest / size,
             nearest = figure(nearest),
             size = figure(size),

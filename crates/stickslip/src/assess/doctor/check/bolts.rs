@@ -124,7 +124,7 @@ impl Bolt<'_> {
             self.finding(
                 step,
                 format!(
-                    "pretension {} draws with {force} at most, and stretches the bolt by {strain} of its length, {} on a section of {}: surfaces settle by more than that, and nothing is held",
+                    "pretension {} reaches {force} at most, a strain of {strain} in the bolt ({} on a section of {}): real surfaces settle by more, and the joint would be loose",
                     self.name,
                     figure(force / self.pretension.area),
                     figure(self.pretension.area), force = digits(force, 5), strain = digits(strain, 2)),

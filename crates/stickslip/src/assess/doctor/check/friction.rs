@@ -148,7 +148,7 @@ pub(super) fn pressureless(
     }
     slid.map(|_| {
         DoctorCause::FrictionWithoutPressure.warning(format!(
-            "interface {} has friction, but nothing presses it together: all that is prescribed moves along it",
+            "interface {} has friction but no pressure: all prescribed motions are parallel to it",
             interface.name
         ))
         .blame(Suspect::interface(&interface.name, "carries no pressure"))

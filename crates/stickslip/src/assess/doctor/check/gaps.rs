@@ -56,7 +56,7 @@ pub(super) fn check(
             Start::Ramp => finding
                 .advise("the fit is deeper than half a cell: take finer increments, or check the sizes of the bodies"),
             Start::Offset | Start::Snap => finding
-                .advise("check the positions and sizes of the bodies: what is taken away is of the size of cells"),
+                .advise("check the positions and sizes of the bodies: the gap that is removed is as large as the cells"),
             Start::AsMeshed => finding
                 .advise("move a body by the overlap (`body.NAME.translate`) or mend the mesh")
                 .advise("if the overlap is an interference fit, resolve it over the first step (`initial = \"ramp\"`)"),
@@ -68,7 +68,7 @@ pub(super) fn check(
     if smallest > 10.0 * reach && smallest > SHALLOW_OVERLAP * size && !forced_by_loads(view) {
         out.push(
             DoctorCause::InitialGap.warning(format!(
-                "interface {} cannot close: its smallest gap is {smallest}, and what is prescribed, supports and velocities, moves {reach} at most",
+                "interface {} cannot close: its smallest gap is {smallest}, and supports and velocities move the bodies by {reach} at most",
                 interface.name,
                 smallest = figure(smallest),
                 reach = figure(reach),
@@ -136,7 +136,7 @@ fn nothing_opposite(interface: &InterfaceDefinition, measured: &Measured) -> Fin
         ))
         .blame(Suspect::interface(
             &interface.name,
-            "cannot close from here",
+            "the surfaces lie beside each other",
         ));
     if let Some((i, distance)) = near {
         let remark = format!(

@@ -52,7 +52,7 @@ pub(super) fn strained(model: &Model) -> Vec<Finding> {
             ))
             .blame(Suspect::key(format!("body.{name}.material"), "its `expansion`"))
             .blame(body(model, name, format!("strain {}", figure(strain))))
-            .advise("check the unit of `expansion`: that of steel is 12e-6 per degree, not 12")
+            .advise("check the unit of `expansion`: steel has 12e-6 per degree, not 12")
             .advise("bodies are linear, with small strains, and results beyond are not to be trusted"),
         );
     }

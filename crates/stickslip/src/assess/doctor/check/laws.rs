@@ -74,8 +74,8 @@ fn stiffness(interface: &InterfaceDefinition, largest: f64) -> Option<Finding> {
     (ratio > 1e10).then(|| {
         new(
             format!(
-                "interface {name}: the normal law is {ratio} times as stiff as the cells beneath at a pressure of {pressure}: rounding makes such a law \
-                 worthless",
+                "interface {name}: at a pressure of {pressure} the normal law is {ratio} times as stiff as the cells beneath: rounding errors exceed its \
+                 penetration",
                 ratio = digits(ratio, 2),
                 pressure = figure(pressure),
             ),

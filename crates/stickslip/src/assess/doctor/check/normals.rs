@@ -95,7 +95,7 @@ pub(super) fn through(
     let name = &interface.name;
     Some(
         DoctorCause::NormalsNotOpposed.warning(format!(
-            "interface {name}: its secondary and its primary are surfaces of the same body, {ours}, and the body lies between them: {} points look away from what lies {} behind them, and the two cannot touch",
+            "interface {name}: secondary and primary are surfaces of one body, {ours}, which lies between them: {} points face away from the primary, {} behind them, so the surfaces cannot touch",
             behind.len(),
             figure(-gap)))
         .blame(Suspect::interface(name, "both sides on one body"))

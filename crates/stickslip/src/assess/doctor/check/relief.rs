@@ -29,7 +29,7 @@ fn aliased(model: &Model, interface: &InterfaceDefinition) -> Option<Finding> {
     // A wave needs two points at the least to be told from a longer one (Nyquist).
     (shortest < 2.0 * apart).then(|| {
         DoctorCause::UnresolvedRoughness.warning(format!(
-            "interface {name}: the shortest wave of its roughness is {shortest} long and its points are {apart} apart: what they show is another surface, with longer waves or none",
+            "interface {name}: the shortest wavelength of its roughness is {shortest} and its contact points are {apart} apart: the mesh does not resolve the roughness",
             shortest = figure(shortest),
             apart = figure(apart),
         ))
@@ -39,7 +39,7 @@ fn aliased(model: &Model, interface: &InterfaceDefinition) -> Option<Finding> {
             "refine the secondary until a wave has several points, {} apart and less, or leave short waves out",
             digits(0.25 * shortest, 2),
         ))
-        .advise("what is too short for a mesh is a law of contact: `normal.micro-contact`")
+        .advise("refine the mesh, or represent short wavelengths by a contact law: `normal.micro-contact`")
     })
 }
 

@@ -168,7 +168,7 @@ fn unread(model: &Model, acting: &Acting) -> Option<Finding> {
                 cycles.count,
                 cycles.period
             ),
-            "let the table tell of one cycle and no more, or make the `duration` of the step, which is that of one cycle, as long as what the table tells",
+            "end the table after one cycle, or set the `duration` of the step (the length of one cycle) to the length of the table",
         ),
         None => (
             format!(

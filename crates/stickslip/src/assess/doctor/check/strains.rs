@@ -157,7 +157,7 @@ pub(super) fn pressed(
         return None;
     }
     let found = finding(format!(
-        "interface {}: what is prescribed presses its sides {depth} into each other, {strain:.2} of the bodies behind them",
+        "interface {}: the prescribed displacements overlap its sides by {depth}, a strain of {strain:.2} in the bodies behind them",
         interface.name,
         depth = figure(depth),
     ))

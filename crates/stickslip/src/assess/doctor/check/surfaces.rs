@@ -141,7 +141,7 @@ fn stiffened(scene: &Scene, interface: &InterfaceDefinition, surface: &Surface) 
         let (name, ours) = (&interface.name, &surface.body.name);
         return Some(
             DoctorCause::SupportOnContact.warning(format!(
-                "coupling {} makes the {} of interface {name} itself rigid, on body {ours}: contact there cannot shape it, and pressures are those of a rigid face",
+                "coupling {} makes the {} of interface {name} rigid, on body {ours}: contact cannot deform it, and pressures are those of a rigid face",
                 coupling.name, surface.side
             ))
             .blame(Suspect::key(format!("coupling.{}", coupling.name), format!("{count} of {} points of the surface", on.len())))

@@ -208,7 +208,7 @@ fn alone(model: &Model, n: &Numbers, heavy: bool) -> Option<Finding> {
     if !SYSTEMS.iter().any(plausible) {
         return Some(blame(
             finding(format!(
-                "body {name}: a modulus of {} is that of no solid, neither in Pa nor in MPa nor in psi",
+                "body {name}: no solid has a modulus of {}, in Pa, MPa or psi",
                 figure(n.modulus)
             )),
             format!("modulus {}", figure(n.modulus)),
@@ -227,7 +227,7 @@ fn alone(model: &Model, n: &Numbers, heavy: bool) -> Option<Finding> {
         }) {
             return Some(blame(
                 finding(format!(
-                    "body {name}: a modulus of {} and a density of {} with a speed of sound of {speed} are those of no solid, in kg/m³, t/mm³ or lbf s²/in⁴",
+                    "body {name}: a modulus of {} and a density of {} give a speed of sound of {speed}: no solid has that, in kg/m³, t/mm³ or lbf s²/in⁴",
                     figure(n.modulus),
                     figure(n.density),
                     speed = figure(speed)

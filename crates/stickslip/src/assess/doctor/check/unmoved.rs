@@ -32,7 +32,7 @@ fn massless(scene: &Scene, initial: &Initial) -> Option<Finding> {
     let name = &initial.name;
     Some(
         DoctorCause::NothingActs.warning(format!(
-            "initial {name} gives velocities to nothing but points of contact, and step {} has given their mass to their neighbours: nothing is set in motion",
+            "initial {name} gives velocities only to contact points, which have no mass in step {} (it is redistributed to their neighbours): nothing moves",
             step.name
         ))
         .blame(Suspect::key(format!("initial.{name}.set"), "points without mass"))
