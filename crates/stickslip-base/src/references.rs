@@ -21,6 +21,7 @@ references! {
     ruina_1983: "A. Ruina, Slip instability and state variable friction laws, Journal of Geophysical Research 88 (1983) 10359-10370.",
     rice_2001: "J. R. Rice, N. Lapusta, K. Ranjith, Rate and state dependent friction and the stability of sliding between elastically deformable solids, Journal of the Mechanics and Physics of Solids 49 (2001) 1865-1898.",
     pop_1995: "N. Pop, A finite element method for frictional contact problems, Buletinul Științific al Universității din Baia Mare, Seria B, XI (1995) 89-104.",
+    michalowski_mroz_1978: "R. Michałowski, Z. Mróz, Associated and non-associated sliding rules in contact friction problems, Archives of Mechanics 30 (1978) 259-276.",
     oden_martins_1985: "J. T. Oden, J. A. C. Martins, Models and computational methods for dynamic friction phenomena, Computer Methods in Applied Mechanics and Engineering 52 (1985) 527-634.",
     zavarise_1992: "G. Zavarise, P. Wriggers, E. Stein, B. A. Schrefler, Real contact mechanisms and finite element formulation: a coupled thermomechanical approach, International Journal for Numerical Methods in Engineering 35 (1992) 767-785.",
     simo_laursen_1992: "J. C. Simo, T. A. Laursen, An augmented Lagrangian treatment of contact problems involving friction, Computers and Structures 42 (1992) 97-116.",

@@ -81,9 +81,7 @@ pub fn run(arguments: &Arguments) -> Outcome {
             slip: [1.0, 0.0],
             dt: 1.0,
             stiffness: 1e6 * arguments.pressure,
-            base: [0.0; 2],
-            skew: 0.0,
-            slack: 0.0,
+            ..Tangential::default()
         };
         let shear = -slip.traction(limit(false), &motion).traction[0];
         text += &format!(

@@ -5,7 +5,7 @@ use super::small::norm;
 
 /// What a point does in the eyes of the natural map.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Projected {
+pub(crate) struct Projected {
     /// Forces that the laws allow next to `r - ρ u`.
     pub forces: [f64; 3],
     /// Their derivative `A` by `r - ρ u`, row by row in the first `d²` entries; zero for a point that is open.
@@ -14,7 +14,7 @@ pub(super) struct Projected {
 
 /// The nearest that the laws allow to a trial force `z = r - ρ u`: no tension, and shear within the limit that belongs to the pressure *of the trial*
 /// ([Alart and Curnier](stickslip_base::references::alart_curnier_1991), in the form of Jean and Moreau).
-pub(super) fn project(d: usize, law: &PointLaw, z: &[f64]) -> Projected {
+pub(crate) fn project(d: usize, law: &PointLaw, z: &[f64]) -> Projected {
     let (mut forces, mut derivative) = ([0.0; 3], [0.0; 9]);
     let pressed = z[0].max(0.0);
     let (limit, slope) = law.limit(pressed);
@@ -24,7 +24,7 @@ pub(super) fn project(d: usize, law: &PointLaw, z: &[f64]) -> Projected {
     }
     let cone = law.cone(pressed);
     let trial = [z[1], z.get(2).copied().unwrap_or(0.0)];
-    let shear = cone.length(trial);
+    let shear = cone.size(trial);
     if shear <= limit {
         for a in 1..d {
             forces[a] = z[a];
@@ -32,7 +32,7 @@ pub(super) fn project(d: usize, law: &PointLaw, z: &[f64]) -> Projected {
         }
         return Projected { forces, derivative };
     }
-    let slips = cone.boundary(trial, shear, 1.0);
+    let slips = cone.returned(trial, 1.0);
     for a in 1..d {
         forces[a] = slips.shear[a - 1];
         for b in 1..d {

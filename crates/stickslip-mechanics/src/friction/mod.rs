@@ -10,6 +10,7 @@
 //! What counts is the norm of the natural map, [`friction_error`].
 
 pub mod cone;
+pub mod ellipse;
 mod gauss_seidel;
 mod linear;
 pub(crate) mod map;

@@ -14,17 +14,42 @@ pub(super) fn local(d: usize, law: &PointLaw, w: &[f64; 9], q: &[f64; 3]) -> Opt
     let sticking = solve(d, *w, right);
     if let Some(r) = sticking
         && r[0] >= 0.0
-        && norm(&r[1..d]) <= law.limit(r[0]).0
+        && law.cone(r[0]).size([r[1], r[2]]) <= law.limit(r[0]).0
     {
         return Some(r);
     }
     match d {
         2 => sliding_in_plane(law, w, q),
-        _ => sliding_in_space(law, w, q),
+        _ => sliding_in_space(law, w, q).filter(|r| law.ellipse.is_none() || holds(law, w, q, r)),
     }
 }
 
-/// Contact force under sliding with shear `-limit t`, where `t` is the direction of slip.
+/// A motion beyond the laws over the free one that counts as none.
+const SAME_MOTION: f64 = 1e-9;
+
+/// Whether forces are those of the laws. Where nothing rubs across an axis, shear jumps with the direction of slip, and a direction in between is none.
+fn holds(law: &PointLaw, w: &[f64; 9], q: &[f64; 3], r: &[f64; 3]) -> bool {
+    let u = moved(3, w, q, r);
+    let rho = 3.0 / (w[0] + w[4] + w[8]);
+    let z = [0, 1, 2].map(|a| r[a] - rho * u[a]);
+    let lawful = project(3, law, &z).forces;
+    let off = [0, 1, 2].map(|a| (r[a] - lawful[a]) / rho);
+    norm(&off) <= SAME_MOTION * norm(q)
+}
+
+/// The shear of a point per limit, for a direction of slip and with the opposite sign.
+fn shear_against(law: &PointLaw, t: [f64; 2]) -> [f64; 2] {
+    if law.ellipse.is_none() {
+        return t;
+    }
+    let direction = law.cone(0.0).against(t);
+    match direction.size > 0.0 {
+        true => direction.along.map(|v| v / direction.size),
+        false => [0.0; 2],
+    }
+}
+
+/// Contact force under sliding with shear `-limit t`, where `t` is the direction of slip, or what belongs to it on an ellipse.
 fn pressed(d: usize, law: &PointLaw, w: &[f64; 9], q: &[f64; 3], t: &[f64]) -> Option<[f64; 3]> {
     let across: f64 = (1..d).map(|a| w[a] * t[a - 1]).sum();
     let slope = w[0] - law.mu * across;
@@ -55,7 +80,7 @@ fn moved(d: usize, w: &[f64; 9], q: &[f64; 3], r: &[f64; 3]) -> [f64; 3] {
 
 fn sliding_in_plane(law: &PointLaw, w: &[f64; 9], q: &[f64; 3]) -> Option<[f64; 3]> {
     [1.0, -1.0].into_iter().find_map(|t| {
-        let r = pressed(2, law, w, q, &[t])?;
+        let r = pressed(2, law, w, q, &shear_against(law, [t, 0.0])[..1])?;
         let u = moved(2, w, q, &r);
         (u[1] * t >= 0.0).then_some(r)
     })
@@ -71,7 +96,7 @@ const BISECTIONS: usize = 52;
 fn sliding_in_space(law: &PointLaw, w: &[f64; 9], q: &[f64; 3]) -> Option<[f64; 3]> {
     let at = |angle: f64| -> Option<([f64; 3], f64, f64)> {
         let t = [angle.cos(), angle.sin()];
-        let r = pressed(3, law, w, q, &t)?;
+        let r = pressed(3, law, w, q, &shear_against(law, t))?;
         let u = moved(3, w, q, &r);
         let across = t[0] * u[2] - t[1] * u[1];
         let along = t[0] * u[1] + t[1] * u[2];

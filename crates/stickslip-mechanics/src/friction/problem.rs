@@ -1,6 +1,7 @@
 use crate::tolerance::ROUNDING;
 
 use super::cone::Cone;
+use super::ellipse::{Ellipse, SlipDirection};
 
 /// Limit of the friction force at a point: `adhesion + mu p` at a contact force `p`, never below zero.
 ///
@@ -11,19 +12,24 @@ pub struct PointLaw {
     pub mu: f64,
     /// Limit without contact force `[N]`.
     pub adhesion: f64,
+    /// The shape of the set of admissible shear where that is no circle; in the plane its angle is zero.
+    pub ellipse: Option<Ellipse>,
 }
 
 impl PointLaw {
     /// Coulomb's law.
     pub fn coulomb(mu: f64) -> Self {
-        PointLaw { mu, adhesion: 0.0 }
+        PointLaw {
+            mu,
+            ..PointLaw::default()
+        }
     }
 
     /// Tresca's law: a limit that is given.
     pub fn tresca(limit: f64) -> Self {
         PointLaw {
-            mu: 0.0,
             adhesion: limit,
+            ..PointLaw::default()
         }
     }
 
@@ -32,6 +38,7 @@ impl PointLaw {
         Cone {
             limit: self.limit(force).0,
             skew: 0.0,
+            ellipse: self.ellipse,
         }
     }
 
@@ -97,6 +104,18 @@ impl FrictionProblem {
             !fine(law.mu) || !fine(law.adhesion)
         }) {
             return Some(format!("the law of point {k} is negative or not finite"));
+        }
+        if let Some(k) = self.laws.iter().position(|law| {
+            law.ellipse.is_some_and(|ellipse| {
+                let outside = ellipse.half.iter().any(|h| !(0.0..=1.0).contains(h));
+                let thin =
+                    ellipse.flow == SlipDirection::AgainstTraction && ellipse.half.contains(&0.0);
+                outside || thin || !ellipse.angle.is_finite() || d == 2 && ellipse.angle != 0.0
+            })
+        }) {
+            return Some(format!(
+                "the ellipse of point {k} is none: half axes are between 0 and 1, positive where slip is against the traction, and the angle is finite, in the plane 0"
+            ));
         }
         let own = |i: usize| self.operator[i * (n + 1)];
         (0..n).find(|&i| own(i) < 0.0).map(|i| {

@@ -10,10 +10,12 @@
 //! 0 0 0.012        as many lines
 //! ```
 //!
-//! An optional line `adhesion` below `mu` has limits without contact force, one a point. Entries of `W` that are not there are zero.
+//! An optional line `adhesion` below `mu` has limits without contact force, one a point. An optional line `ellipse` after these has four values a point for friction that depends on the
+//! direction: both half axes over the limit, the angle of the first axis, and 1 for the associated rule or 0 for slip against the traction; `1 1 0 1` is a circle. Entries of `W` that are not there are zero.
 
 use std::fmt::Write as _;
 
+use super::ellipse::{Ellipse, SlipDirection};
 use super::problem::{FrictionProblem, PointLaw};
 
 /// What is wrong with a text.
@@ -69,7 +71,10 @@ impl<'a> Lines<'a> {
         let values: Result<Vec<f64>, TextFault> = words.map(|w| number(line, w)).collect();
         let values = values?;
         if values.len() != count {
-            let message = format!("`{word}` has {} values for {count} points", values.len());
+            let message = format!(
+                "`{word}` has {} values, and {count} are wanted",
+                values.len()
+            );
             return Err(fault(line, message));
         }
         if let Some(bad) = values.iter().find(|v| **v < 0.0) {
@@ -123,6 +128,14 @@ pub fn read(text: &str) -> Result<FrictionProblem, TextFault> {
         true => lines.numbers("adhesion", points)?,
         false => vec![0.0; points],
     };
+    let ellipses = match (lines.rest.last()).is_some_and(|(_, text)| text.starts_with("ellipse")) {
+        true => (lines
+            .numbers("ellipse", 4 * points)?
+            .chunks_exact(4)
+            .map(ellipse))
+        .collect(),
+        false => vec![None; points],
+    };
     let n = dimension * points;
     let (line, word) = lines.next("`q`")?;
     if word != "q" {
@@ -146,14 +159,33 @@ pub fn read(text: &str) -> Result<FrictionProblem, TextFault> {
             ),
         ));
     }
-    let laws = mu.into_iter().zip(adhesion);
+    let laws = mu.into_iter().zip(adhesion).zip(ellipses);
     Ok(FrictionProblem {
         dimension,
         operator,
         free,
         laws: laws
-            .map(|(mu, adhesion)| PointLaw { mu, adhesion })
+            .map(|((mu, adhesion), ellipse)| PointLaw {
+                mu,
+                adhesion,
+                ellipse,
+            })
             .collect(),
+    })
+}
+
+/// The shape that four values stand for.
+fn ellipse(values: &[f64]) -> Option<Ellipse> {
+    let &[first, second, angle, associated] = values else {
+        return None;
+    };
+    ([first, second] != [1.0; 2]).then_some(Ellipse {
+        half: [first, second],
+        angle,
+        flow: match associated == 1.0 {
+            true => SlipDirection::Associated,
+            false => SlipDirection::AgainstTraction,
+        },
     })
 }
 
@@ -234,6 +266,15 @@ fn entries(lines: &mut Lines, n: usize) -> Result<Vec<f64>, TextFault> {
     Ok(operator)
 }
 
+/// The four values of a shape.
+fn shape_of(law: &PointLaw) -> [f64; 4] {
+    law.ellipse.map_or([1.0, 1.0, 0.0, 1.0], |ellipse| {
+        let associated = ellipse.flow == SlipDirection::Associated;
+        let [first, second] = ellipse.half;
+        [first, second, ellipse.angle, f64::from(associated)]
+    })
+}
+
 /// Writes a problem, below lines of remarks; [`read`] gives it back to the last bit.
 pub fn write(problem: &FrictionProblem, remarks: &str) -> String {
     let mut out = String::new();
@@ -254,6 +295,9 @@ pub fn write(problem: &FrictionProblem, remarks: &str) -> String {
     out += &row("mu", &mut problem.laws.iter().map(|law| law.mu));
     if problem.laws.iter().any(|law| law.adhesion != 0.0) {
         out += &row("adhesion", &mut problem.laws.iter().map(|law| law.adhesion));
+    }
+    if problem.laws.iter().any(|law| law.ellipse.is_some()) {
+        out += &row("ellipse", &mut problem.laws.iter().flat_map(shape_of));
     }
     out += "q\n";
     for q in &problem.free {

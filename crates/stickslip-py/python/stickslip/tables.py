@@ -66,6 +66,9 @@ Roles = Literal["by-mesh", "as-named"]
 #: Which part of a ball is meshed.
 Sector = Literal["full", "half", "quarter"]
 
+#: How a point slips whose shear is on the boundary of an ellipse.
+SlipDirection = Literal["associated", "against-traction"]
+
 #: How the systems of Newton's method are solved.
 Solution = Literal["automatic", "condensed", "sparse", "multigrid"]
 
@@ -109,6 +112,21 @@ class Anisotropic(Table):
     """
 
     def __init__(self, *, stiffness: Entries, density: float | None = None) -> None:
+        super().__init__(locals())
+
+
+class Around(Table):
+    """A line around which circles run.
+
+    Parameters
+    ----------
+    axis
+        Direction of the line.
+    centre
+        A point on the line. Default: the origin.
+    """
+
+    def __init__(self, *, axis: Numbers, centre: Numbers | None = None) -> None:
         super().__init__(locals())
 
 
@@ -793,6 +811,29 @@ class Friction(Table):
             Largest shear traction, e.g. the shear yield stress. Default: none.
         """
         return Friction({"coulomb": Table(locals())})
+
+    @staticmethod
+    def orthotropic(*, mu: Numbers, around: Around | None = None, axis: Numbers | None = None, cap: float | None = None, slip: SlipDirection | None = None) -> Friction:
+        """Orthotropic friction: one coefficient along an axis of the surface and another across it, `(t₁/μ₁)² + (t₂/μ₂)² <= p²`.
+
+        The axis is that of scratches, rolling marks or fibres of the primary surface. It keeps its direction in space, and at each point counts as projected on the surface. The two
+        slip directions, with the shear that belongs to a slip, are those of Michałowski and Mróz 1978. In two dimensions
+        a point slides in one direction alone, and the coefficient is that of this direction.
+
+        Parameters
+        ----------
+        mu
+            Coefficients of friction along the axis and across it.
+        around
+            Instead of `axis`: the line around which the axes are circles, as turning leaves them.
+        axis
+            The axis. Its part along the normal of the surface has no effect.
+        cap
+            Largest shear traction along the axis with the larger coefficient; across it is less in the ratio of the coefficients. Default: none.
+        slip
+            How a point slips at the limit. Default: associated.
+        """
+        return Friction({"orthotropic": Table(locals())})
 
     @staticmethod
     def power_law(*, c: float, m: float, cap: float | None = None) -> Friction:
@@ -2342,7 +2383,7 @@ class Slip(Table):
     @staticmethod
     def return_mapping() -> Slip:
         """Stick until the limit, then slide: the trial traction `base - ω_T slip` is returned radially to the limit
-        (Simo and Laursen 1992). There is no creep; what gives in stick is only the
+        (Simo and Laursen 1992), or to the point of an ellipse that its slip direction asks for. There is no creep; what gives in stick is only the
         stiffness of the enforcement, which the augmented Lagrangian removes. No parameters.
         """
         return Slip({"return-mapping": Table(locals())})
@@ -2351,6 +2392,9 @@ class Slip(Table):
     def regularised(*, epsilon: float) -> Slip:
         """The smooth friction of Pop 1995, eq. (14)-(20): `t = -limit φ_ε(w)` with the sliding velocity
         `w = slip / dt`.
+
+        On an ellipse `|w|` is the length by which the direction of slip is divided there: `√((h₁ w₁)² + (h₂ w₂)²)` by the associated rule, `√((w₁/h₁)² + (w₂/h₂)²)` against the
+        traction, with half axes `h` over the longer one.
 
         It never quite sticks: under a steady shear `q` below the limit `T` the interface
         creeps at `ε (1 - √(1 - q/T))`, which it reports in the summary. In a quasi-static

@@ -64,13 +64,14 @@ named! {
         Coupling = "couplings of its points",
         SmallSliding = "`kinematics.small-sliding`",
         Tie = "`tied` interfaces",
+        FrictionAxes = "`friction.orthotropic` with its surface as the primary",
     }
 }
 
 use Feature::{
     Axisymmetric, Centrifugal, ComplexModes, Condensed, Coupling, CycleJumps, Explicit, Following,
-    GroundSpring, Harmonic, Implicit, InitialDisplacement, InitialTemperature, Modes, Multigrid,
-    PartialSupport, SmallSliding, Steady, Temperature,
+    FrictionAxes, GroundSpring, Harmonic, Implicit, InitialDisplacement, InitialTemperature, Modes,
+    Multigrid, PartialSupport, SmallSliding, Steady, Temperature,
 };
 use Subject::{Axle, Cells, Free, FrictionState, RigidAxle, RigidFree};
 
@@ -191,6 +192,12 @@ pub static LIMITS: &[Limit] = &[
         features: &[Coupling],
         why: "turns by any angle, and is joined to something that does not turn with it",
         help: "tie surfaces by an interface (`tied = true`), or support the body in its frame and load the reference point that carries it",
+    },
+    Limit {
+        subjects: &[Axle, Free, Cells, RigidAxle, RigidFree],
+        features: &[FrictionAxes],
+        why: "turns by any angle, and the axes of friction on the primary surface keep their directions in space",
+        help: "let the body with the axes be one that does not turn, or take friction.coulomb",
     },
     Limit {
         subjects: &[FrictionState],

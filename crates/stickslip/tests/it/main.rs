@@ -47,6 +47,7 @@ mod restep;
 mod rigid;
 mod roughness;
 mod schema;
+mod scratches;
 mod seams;
 mod slits;
 mod solvable;

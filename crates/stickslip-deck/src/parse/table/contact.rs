@@ -57,7 +57,7 @@ pub(super) const ROWS: &[Row] = &[
             harmless("ELASTICSLIP", EXACT),
             refused(
                 "ANISOTROPIC",
-                "friction is the same in all directions; see `stickslip models` for the laws there are",
+                "its directions are those of the slave surface, which are not read: leave ANISOTROPIC out, and give both coefficients and an axis by `friction.orthotropic` in the problem file",
             ),
             refused("USER", "see `stickslip models` for the laws there are"),
             refused("DEPVAR", SUBROUTINE),

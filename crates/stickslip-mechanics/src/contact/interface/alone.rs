@@ -89,6 +89,7 @@ fn limit_alone(interface: InterfaceInput, e: &Evaluation) -> PointLaw {
     PointLaw {
         mu,
         adhesion: e.area * (r.limit - mu * r.traction[0].max(0.0)).max(0.0),
+        ellipse: r.ellipse,
     }
 }
 

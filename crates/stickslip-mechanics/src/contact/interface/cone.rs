@@ -3,12 +3,13 @@
 
 use super::belt::{belt_velocity, steady_velocity};
 use super::definition::Primary;
-use super::evaluation::Evaluation;
+use super::evaluation::{Evaluation, components};
 use super::history::FrictionError;
 use super::parts::InterfaceForce;
 use super::sides::weights_of;
 use crate::contact::law::friction::FrictionPoint;
 use crate::contact::response::Status;
+use crate::friction::cone::Cone;
 use crate::math::{Vec3, add, add_scaled, dot, norm, scale, sub};
 use crate::system::Stage;
 
@@ -40,7 +41,11 @@ pub(super) fn friction_error(interface: &InterfaceForce, stage: &Stage) -> Frict
             continue;
         }
         let shear = e.along(&e.frames.now);
-        let size = norm(shear);
+        let allowed = allowed(interface, i, e, shear);
+        let size = match &allowed {
+            Some((cone, parts)) => cone.size(*parts),
+            None => norm(shear),
+        };
         let (moved, unsure) = relative_slip(interface, i, e, stage);
         let speed = norm(moved) / stage.dt;
         // What the speed changes is the law's, and it sees another measure of it.
@@ -64,12 +69,18 @@ pub(super) fn friction_error(interface: &InterfaceForce, stage: &Stage) -> Frict
         };
         cone.limit = cone.limit.max(limit);
         let slips = e.response.status == Status::Slip;
-        let mut wrong = match slips {
-            true => (size - limit).abs(),
-            false => size - limit,
+        let mut wrong = match &allowed {
+            // Where nothing rubs across the axis, a point that slips across it may stick along it.
+            Some((cone, parts)) if cone.ellipse.is_some_and(|e| e.half.contains(&0.0)) => {
+                beyond(&Cone { limit, ..*cone }, *parts)
+            }
+            _ if slips => (size - limit).abs(),
+            _ => size - limit,
         };
+        cone.over = cone.over.max(wrong.min(size - limit));
         wrong = wrong.max(dot(shear, e.frames.normal).abs());
-        let given = (size + norm(before.shear)) * compliance(interface, i, e);
+        let length = norm(shear);
+        let given = (length + norm(before.shear)) * compliance(interface, i, e);
         let (apart, unsure) = (unsure, unsure + given);
         if slips && norm(moved) > unsure {
             let against = -dot(shear, moved) / norm(moved);
@@ -84,18 +95,63 @@ pub(super) fn friction_error(interface: &InterfaceForce, stage: &Stage) -> Frict
             };
             let slid = add(moved, spring);
             let unsure = apart
-                + (size + norm(before.shear)) * NO_SLIP_DIRECTION / interface.points[i].stiffness;
+                + (length + norm(before.shear)) * NO_SLIP_DIRECTION / interface.points[i].stiffness;
             if norm(slid) > unsure {
-                let angle = (-dot(shear, slid) / (size * norm(slid)))
+                let against = against(interface, e, &allowed, slid);
+                let angle = (dot(shear, against) / (length * norm(against)))
                     .clamp(-1.0, 1.0)
                     .acos();
                 let turned = (unsure / norm(slid)).asin();
-                wrong = wrong.max(size * (1.0 - (angle - turned).max(0.0).cos()));
+                wrong = wrong.max(length * (1.0 - (angle - turned).max(0.0).cos()));
             }
         }
         cone.worst = cone.worst.max(wrong);
     }
     cone
+}
+
+/// What friction allows at a point where it depends on the direction, by the axis where the point is now, and the shear in the frame of that.
+fn allowed(
+    interface: &InterfaceForce,
+    i: usize,
+    e: &Evaluation,
+    shear: Vec3,
+) -> Option<(Cone, [f64; 2])> {
+    let frame = &e.frames.now;
+    let x = interface.points[i].position(&interface.cache.geometry.x);
+    let cone = Cone {
+        limit: 0.0,
+        skew: dot(frame[0], frame[1]),
+        ellipse: Some(interface.definition.ellipse(x, *frame)?),
+    };
+    Some((cone, components(shear, frame, interface.dofs.dim)))
+}
+
+/// A vector in the direction that the shear of a point has which slid this way.
+fn against(
+    interface: &InterfaceForce,
+    e: &Evaluation,
+    allowed: &Option<(Cone, [f64; 2])>,
+    slid: Vec3,
+) -> Vec3 {
+    let Some((cone, _)) = allowed else {
+        return scale(-1.0, slid);
+    };
+    let [first, second] = e.frames.now;
+    let parts = components(scale(-1.0, slid), &e.frames.now, interface.dofs.dim);
+    let [a, b] = cone.against(parts).along;
+    add_scaled(scale(a, first), b, second)
+}
+
+/// How far a shear lies beyond what is allowed `[Pa]`.
+fn beyond(cone: &Cone, shear: [f64; 2]) -> f64 {
+    match cone.size(shear) > cone.limit {
+        true => {
+            let allowed = cone.returned(shear, 1.0).shear;
+            cone.length([0, 1].map(|q| shear[q] - allowed[q]))
+        }
+        false => 0.0,
+    }
 }
 
 /// How far a point gives way under a unit of shear before it slips, and where slip has no direction to speak of `[m/Pa]`.

@@ -12,6 +12,7 @@ use crate::contact::response::Laws;
 use crate::contact::surface::{ContactPoint, Facet, Skin};
 use crate::contact::walls::Walls;
 use crate::contact::worn::OppositeWear;
+use crate::friction::ellipse::Ellipse;
 use crate::math::{Vec3, add, distance, norm, sub};
 use crate::system::{BodyFrames, Dofs, FramePose, Schedule, Stage};
 
@@ -210,6 +211,12 @@ impl InterfaceDefinition {
     /// What is known of it before anything has happened.
     pub fn first_history(&self) -> History {
         History::new(&self.places(), self.laws.friction_law())
+    }
+
+    /// The shape of what friction allows at a place, counted like all coordinates here, in a contact frame; `None` where it is a circle.
+    pub(in crate::contact) fn ellipse(&self, x: Vec3, frame: [Vec3; 2]) -> Option<Ellipse> {
+        let orthotropy = self.laws.friction_law().orthotropy()?;
+        orthotropy.ellipse(add(x, self.origin), frame, self.dofs.dim)
     }
 
     /// Springs that stand for the bodies at a contact point `[N/m]` and the height of the cell beneath `[m]`, mean values.

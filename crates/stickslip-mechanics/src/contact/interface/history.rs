@@ -118,6 +118,8 @@ pub(in crate::contact) struct Origin {
 pub(in crate::contact) struct FrictionError {
     /// Largest amount by which the shear is not what friction says `[Pa]`.
     pub worst: f64,
+    /// Largest amount by which the shear is beyond its limit `[Pa]`.
+    pub over: f64,
     /// Largest limit `[Pa]`.
     pub limit: f64,
 }

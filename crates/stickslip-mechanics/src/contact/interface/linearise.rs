@@ -39,7 +39,7 @@ pub struct LinearPoint {
     pub area: f64,
     /// Pressure `[Pa]`.
     pub pressure: f64,
-    /// Largest shear traction `[Pa]`.
+    /// Largest shear traction in the direction of the shear `[Pa]`.
     pub limit: f64,
 }
 
@@ -107,7 +107,7 @@ fn line(
         position: add(interface.origin, interface.points[i].position(&geometry.x)),
         area: e.area,
         pressure: e.response.traction[0],
-        limit: e.response.limit,
+        limit: e.response.limit_along(),
     })
 }
 

@@ -51,13 +51,17 @@ pub(super) fn respond(met: Met, scene: &Scene, batch: &mut Batch) -> Evaluation 
             _ if scene.wants.pressed => Worn::default(),
             _ => {
                 let path = length(stencil.frame_before, slid);
-                wear_compliance(interface, i, path, scene.dt, before.pressure)
+                wear_compliance(interface, i, path, scene.dt, before.pressure, None)
             }
         },
         closing: closing(interface, i, stencil.gap, scene.dt),
         sticking: before.status != Status::Slip,
         state: interface.state.law_state(i),
         place: interface.definition.place(&interface.points[i]),
+        ellipse: interface.ellipse(
+            interface.points[i].position(&scene.geometry.x),
+            stencil.frame,
+        ),
         pressed: scene.wants.pressed,
         answers: scene.answers.get(i).copied().unwrap_or_default(),
     };

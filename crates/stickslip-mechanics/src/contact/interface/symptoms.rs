@@ -114,7 +114,7 @@ fn evidence_of(attempted: LastAttempt, i: usize) -> Evidence {
     evidence.gap = e.gap;
     evidence.pressure = e.response.traction[0];
     evidence.shear = e.response.traction[1].hypot(e.response.traction[2]);
-    evidence.limit = e.response.limit;
+    evidence.limit = e.response.limit_along();
     evidence.slip = norm(e.moved);
     if let (Primary::Facets(facets), Some(f)) = (&interface.primary, e.foot.facet) {
         let x = |k: usize| interface.reference[facets[f].nodes[k]];

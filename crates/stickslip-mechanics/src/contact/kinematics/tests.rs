@@ -333,7 +333,7 @@ fn friction_is_isotropic_but_in_the_papers_kinematics() {
                     stiffness: 1e6,
                     base: [0.0; 2],
                     skew: s.skew,
-                    slack: 0.0,
+                    ..Tangential::default()
                 },
             );
             let force = add_scaled(scale(t.traction[0], s.frame[0]), t.traction[1], s.frame[1]);

@@ -87,6 +87,7 @@ pub fn quality(contact: ContactView) -> Quality {
         ..Quality::default()
     };
     let law = contact.laws.normal_law();
+    let friction = contact.laws.friction_law();
     let exact = contact.laws.needs_normal_stiffness();
     let sticks = contact.laws.needs_tangential_stiffness();
     let updated = matches!(
@@ -134,9 +135,13 @@ pub fn quality(contact: ContactView) -> Quality {
             };
             q.violation_work += area * shear * left;
         }
-        if h.status != Status::Open && contact.laws.friction_law().frictional() {
+        if h.status != Status::Open && friction.frictional() {
             most = most.max(h.limit);
-            over_limit = over_limit.max(shear - h.limit);
+            // Where the limit depends on the direction, the increment has judged it.
+            over_limit = match friction.orthotropy() {
+                None => over_limit.max(shear - h.limit),
+                Some(_) => contact.state.cone.over,
+            };
         }
     }
     let stiffness = pressed_stiffness(contact);

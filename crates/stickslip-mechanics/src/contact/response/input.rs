@@ -1,6 +1,7 @@
 //! What laws are told of a point and an increment, beside gap and slip.
 
 use crate::contact::law::friction::{LawState, Limit};
+use crate::friction::ellipse::Ellipse;
 use crate::math::{Slope, Vec3};
 
 /// What one evaluation of the laws needs beside the stencil.
@@ -26,6 +27,8 @@ pub struct LawInput {
     pub state: LawState,
     /// Where the point is in the reference configuration `[m]`.
     pub place: Vec3,
+    /// The shape of what friction allows in the frame where that is no circle.
+    pub ellipse: Option<Ellipse>,
     /// Asked is what the point would do if it was pressed and stuck: in contact even if that takes tension, sticking even beyond the limit, and under a load
     /// that counts. A law that is hardly touched answers with the line that touches it where it is as stiff as the body.
     pub pressed: bool,

@@ -1,6 +1,8 @@
 //! What laws answer: traction with its derivatives, and status.
 
 use crate::contact::law::friction::LawState;
+use crate::friction::cone::Cone;
+use crate::friction::ellipse::Ellipse;
 
 /// Status of a contact point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, crate::keep::Keep)]
@@ -29,6 +31,8 @@ pub struct Response {
     pub d_multiplier: [[f64; 3]; 3],
     /// Largest shear `[Pa]`.
     pub limit: f64,
+    /// The shape of what friction allows where that is no circle; the limit is then that along its longer axis.
+    pub ellipse: Option<Ellipse>,
     /// State variables of the friction law at the end of the increment.
     pub state: LawState,
     /// By how much the limit grows with the pressure, directly and through the penetration `[-]`.
@@ -41,4 +45,16 @@ pub struct Response {
     pub d_path: [f64; 3],
     /// The part of the pressure that damping adds `[Pa]`, negative while surfaces part.
     pub damping: f64,
+}
+
+impl Response {
+    /// The largest shear in the direction of the shear that there is `[Pa]`.
+    pub fn limit_along(&self) -> f64 {
+        let cone = Cone {
+            limit: self.limit,
+            skew: 0.0,
+            ellipse: self.ellipse,
+        };
+        cone.limit_along([self.traction[1], self.traction[2]])
+    }
 }

@@ -31,20 +31,20 @@ fn tangential(stencil: &Stencil, at: &LawInput, keep: f64) -> Tangential {
         stiffness,
         base,
         skew: stencil.skew,
+        ellipse: at.ellipse,
         slack: at.slip.slack,
     }
 }
 
-/// The shear of a point that slides all the time, at the limit against its motion: `-limit s/|s|`. How it turns with the motion shows at once, as nothing elastic is
+/// The shear of a point that slides all the time, at the limit against its motion: `-limit s/|s|`, or what belongs to it on an ellipse. How it turns with the motion shows at once, as nothing elastic is
 /// in between.
 fn sliding(limit: f64, motion: &Tangential) -> SlipState {
-    let path = motion.length(motion.slip);
-    if path <= 0.0 {
+    let cone = motion.cone(limit);
+    let against = cone.against(motion.slip.map(|s| -s));
+    if against.size <= 0.0 {
         return SlipState::default();
     }
-    let slips = motion
-        .cone(limit)
-        .boundary(motion.slip.map(|s| -s), path, -1.0);
+    let slips = cone.boundary(&against, -1.0);
     SlipState {
         traction: slips.shear,
         d_slip: slips.d_motion,
@@ -83,7 +83,8 @@ fn flowing(limit: impl Fn(f64) -> Limit, motion: &Tangential) -> (Limit, SlipSta
         };
         return (along, shear);
     }
-    let slips = motion.cone(found.value).boundary(trial, size, -k);
+    let cone = motion.cone(found.value);
+    let slips = cone.boundary(&cone.radial(trial), -k);
     let toward = motion.length_slope(trial, size);
     let mut d_slip = slips.d_motion;
     for (row, direction) in d_slip.iter_mut().zip(slips.d_limit) {
@@ -213,6 +214,7 @@ pub(super) fn shear(laws: &Laws, stencil: &Stencil, at: &LawInput, response: &mu
         }
     };
     response.limit = limit.value;
+    response.ellipse = at.ellipse;
     response.state = limit.state;
     response.sliding_path = at.slip.path.unwrap_or(shear.sliding_path);
     if shear.sliding {

@@ -1,3 +1,4 @@
+mod ellipses;
 mod random;
 mod rigid;
 
@@ -164,7 +165,11 @@ fn adhesion_holds_what_friction_does_not() {
         dimension: 2,
         operator: vec![1.0, 0.0, 0.0, 1.0],
         free: vec![-1.0, 3.0],
-        laws: vec![PointLaw { mu: 0.5, adhesion }],
+        laws: vec![PointLaw {
+            mu: 0.5,
+            adhesion,
+            ..PointLaw::default()
+        }],
     };
     let slides = solve(&problem(1.0), None, 1e-12);
     assert!((slides.forces[1] + 1.5).abs() < 1e-12, "{slides:?}");
@@ -216,6 +221,16 @@ fn a_problem_goes_through_text_to_the_last_bit() {
     let mut random = Random::new(3);
     let mut problem = rigid::heap(&mut random, 5, 0.3);
     problem.laws[0].adhesion = 0.1;
+    for (k, flow) in [
+        (1, ellipse::SlipDirection::Associated),
+        (2, ellipse::SlipDirection::AgainstTraction),
+    ] {
+        problem.laws[k].ellipse = Some(ellipse::Ellipse {
+            half: [1.0, 1.0 / 3.0],
+            angle: 0.1 + k as f64,
+            flow,
+        });
+    }
     let written = text::write(&problem, "one\ntwo");
     assert!(written.starts_with("# one\n# two\ndim 3"), "{written}");
     assert_eq!(text::read(&written), Ok(problem));
@@ -228,7 +243,7 @@ fn what_is_wrong_with_a_text_is_said_with_its_line() {
     for (from, to, line, says) in [
         ("dim 2", "dim 4", 2, "2 or 3"),
         ("dim 2", "size 2", 2, "`dim D contacts N`"),
-        ("mu 0.5", "mu 0.5 0.5", 3, "2 values for 1"),
+        ("mu 0.5", "mu 0.5 0.5", 3, "2 values, and 1 are wanted"),
         ("mu 0.5", "mu -0.5", 3, "not negative"),
         ("mu 0.5", "mu nan", 3, "no finite number"),
         ("q\n", "p\n", 4, "`q` alone"),
@@ -254,6 +269,13 @@ fn what_is_no_problem_is_named() {
     let mut bad = good.clone();
     bad.operator[0] = -1.0;
     assert!(bad.fault().unwrap().contains("row 0"));
+    let mut bad = good.clone();
+    bad.laws[0].ellipse = Some(ellipse::Ellipse {
+        half: [1.0, 0.0],
+        angle: 0.0,
+        flow: ellipse::SlipDirection::AgainstTraction,
+    });
+    assert!(bad.fault().unwrap().contains("ellipse of point 0"));
     let mut bad = good;
     bad.free.pop();
     assert!(bad.fault().is_some());

@@ -1,6 +1,7 @@
 //! A point of contact among those of an increment, and the two things it can be: an unknown of the friction problem, or part of what surrounds it.
 
 use crate::friction::PointLaw;
+use crate::friction::map::project;
 use crate::math::norm;
 use crate::system::{Assembler, ContactBlock, StickTrial, Tangent};
 
@@ -71,6 +72,11 @@ impl Place {
         let mut slope = [[0.0; 3]; 3];
         if trial[0] <= 0.0 {
             return ([0.0; 3], slope);
+        }
+        if self.law().ellipse.is_some() {
+            let lawful = project(3, &self.law(), &trial);
+            let slope = [0, 1, 2].map(|p| [0, 1, 2].map(|q| lawful.derivative[3 * p + q]));
+            return (lawful.forces, slope);
         }
         slope[0][0] = 1.0;
         let (limit, mu) = self.law().limit(trial[0]);
@@ -164,6 +170,7 @@ mod tests {
             law: PointLaw {
                 mu: 0.4,
                 adhesion: 0.1,
+                ..PointLaw::default()
             },
         };
         let block = ContactBlock {

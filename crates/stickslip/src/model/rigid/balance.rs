@@ -12,6 +12,7 @@ use crate::contact::interface::InterfaceDefinition;
 use crate::contact::law::friction::FrictionPoint;
 use crate::contact::look::{FACING_COSINE, Opposite};
 use crate::friction::cone::Cone;
+use crate::friction::ellipse::Ellipse;
 use crate::math::{
     Vec3, add, add_scaled, cross, distance, dot, norm, normalize, rest_of_nonnegative, vector,
 };
@@ -44,8 +45,9 @@ struct Spot {
     /// The push and the directions across, as forces along the motions; none of a stop, which has no friction.
     normal: Vec<f64>,
     across: Vec<Vec<f64>>,
-    /// The largest coefficient of friction.
+    /// The largest coefficient of friction, and how it depends on the direction across.
     mu: f64,
+    ellipse: Option<Ellipse>,
 }
 
 /// Free motions, and the contact that may balance loads along them.
@@ -98,6 +100,7 @@ impl Balance {
                 normal,
                 across: Vec::new(),
                 mu: 0.0,
+                ellipse: None,
             });
         }
         (!balance.spots.is_empty()).then_some(balance)
@@ -141,11 +144,15 @@ impl Balance {
                 };
                 self.motions.iter().map(speed).collect()
             };
-            let tangents = tangents(nearest.normal, interface.dofs.dim).into_iter();
+            let dim = interface.dofs.dim;
+            let tangents = tangents(nearest.normal, dim);
+            let frame = [tangents[0], cross(nearest.normal, tangents[0])];
+            let orthotropy = interface.laws.friction_law().orthotropy();
             self.spots.push(Spot {
                 normal: along(nearest.normal),
-                across: tangents.map(along).collect(),
+                across: tangents.into_iter().map(along).collect(),
                 mu,
+                ellipse: orthotropy.and_then(|o| o.ellipse(x, frame, dim)),
             });
             self.mu = self.mu.max(mu);
         }
@@ -169,6 +176,7 @@ impl Balance {
             let cone = Cone {
                 limit: friction(spot.mu),
                 skew: 0.0,
+                ellipse: spot.ellipse,
             };
             for corner in cone.corners(spot.across.len()) {
                 let mut edge = spot.normal.clone();
@@ -306,6 +314,7 @@ fn largest_friction(interface: &InterfaceDefinition) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::friction::ellipse::SlipDirection;
 
     /// A block in the plane on a floor, by its two translations.
     fn block(normals: &[[f64; 2]], mu: f64) -> Balance {
@@ -313,6 +322,7 @@ mod tests {
             normal: n.to_vec(),
             across: vec![vec![-n[1], n[0]]],
             mu,
+            ellipse: None,
         };
         Balance {
             all: Vec::new(),
@@ -333,6 +343,42 @@ mod tests {
         let least = flat.least_friction(&[0.25, -1.0]).expect("it can be held");
         assert!((least - 0.25).abs() < 1e-6, "{least}");
         assert_eq!(flat.least_friction(&[0.0, 0.1]), None);
+    }
+
+    /// A block in space on a floor that is rough along x and half as rough across, with scratches at 45 degrees from a load.
+    #[test]
+    fn friction_holds_a_block_as_far_as_it_does_in_the_direction_of_the_load() {
+        for flow in [SlipDirection::Associated, SlipDirection::AgainstTraction] {
+            let floor = Balance {
+                all: Vec::new(),
+                motions: vec![Vec::new(); 3],
+                spots: vec![Spot {
+                    normal: vec![0.0, 0.0, 1.0],
+                    across: vec![vec![1.0, 0.0, 0.0], vec![0.0, 1.0, 0.0]],
+                    mu: 0.4,
+                    ellipse: Some(Ellipse {
+                        half: [1.0, 0.5],
+                        angle: 0.0,
+                        flow,
+                    }),
+                }],
+                mu: 0.4,
+                close: true,
+            };
+            let least = |load: [f64; 2]| floor.least_friction(&[load[0], load[1], -1.0]);
+            for (load, expected) in [
+                ([0.1, 0.0], 0.1),
+                ([0.0, 0.1], 0.2),
+                ([0.1, 0.1], 0.1 * 5.0_f64.sqrt()),
+            ] {
+                let found = least(load).expect("it can be held");
+                // The polygon around the ellipse is wider by 1 - cos(π/24).
+                assert!(
+                    (found / expected - 1.0).abs() < 0.009,
+                    "{flow:?} {load:?}: {found}"
+                );
+            }
+        }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! From a checked [`Problem`] to a [`Model`](crate::model::Model): meshes are made or read, names become indices.
 
+mod axes;
 mod contact;
 mod contradicting;
 mod couplings;
@@ -281,6 +282,7 @@ fn interfaces(
     held_nodes.mark(&mut interfaces);
     turning::attach(frames, corotations, &mut interfaces)?;
     turning::refuse_ties(frames, corotations, &interfaces, &attached.steps)?;
+    axes::check(problem, bodies, &interfaces)?;
     let heights = relief::apply(problem, folder, &mut interfaces)?;
     Ok((interfaces, heights))
 }

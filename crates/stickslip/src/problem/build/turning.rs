@@ -126,7 +126,12 @@ pub(super) fn refuse_ties(
 }
 
 /// Refuses what a body of that kind does not go with, as the table of capabilities has it.
-fn refused(key: String, whose: &str, subject: Subject, feature: Feature) -> Result<(), Error> {
+pub(super) fn refused(
+    key: String,
+    whose: &str,
+    subject: Subject,
+    feature: Feature,
+) -> Result<(), Error> {
     let Some(limit) = limit(subject, feature) else {
         return Ok(());
     };

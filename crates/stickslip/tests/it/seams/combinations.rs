@@ -102,6 +102,7 @@ fn parts(feature: Feature) -> [&'static str; 4] {
         Feature::Coupling => end(
             "[reference.other]\npoint = [2, 0.5]\n[coupling.spread]\ndistributing = { reference = \"other\", set = \"block.right\" }\n[load.push]\nset = \"other\"\nnodal-force.value = [0, -1]\n",
         ),
+        Feature::FrictionAxes => end(""),
         Feature::SmallSliding => ["", "kinematics.small-sliding = {}", "", STEP],
         Feature::Tie => ["", "tied = true", "", STEP],
     }
@@ -120,7 +121,12 @@ fn text(subject: Subject, feature: Feature) -> String {
     };
     let friction = match feature {
         Feature::Tie => "",
+        Feature::FrictionAxes => "friction.orthotropic = { mu = [0.3, 0.1], axis = [1, 0] }",
         _ => "friction.coulomb.mu = 0.3",
+    };
+    let (secondary, primary) = match feature {
+        Feature::FrictionAxes => ("base.top", "block.bottom"),
+        _ => ("block.bottom", "base.top"),
     };
     format!(
         r#"
@@ -143,8 +149,8 @@ isotropic = {{ young = 1e5, poisson = 0.3, density = 1e-3 }}
 expansion = 1e-5
 
 [interface.joint]
-secondary = "block.bottom"
-primary = "base.top"
+secondary = "{secondary}"
+primary = "{primary}"
 {friction}
 {joint}
 

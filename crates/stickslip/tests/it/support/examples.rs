@@ -43,6 +43,7 @@ macro_rules! every_example {
             press_and_slide = "press-and-slide",
             roller_bearing = "roller-bearing",
             rolling_wheel = "rolling-wheel",
+            scratched_floor = "scratched-floor",
             tumbling_block = "tumbling-block",
             shear_column = "shear-column",
             shear_lag = "shear-lag",

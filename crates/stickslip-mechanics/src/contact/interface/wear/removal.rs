@@ -59,13 +59,14 @@ pub(in crate::contact) fn wear_gap(i: usize, scene: &Scene, sides: &[(usize, f64
     interface.state.worn.own_depth(i) + theirs.sum::<f64>()
 }
 
-/// By how much a point that slides a `path` over a time wears both sides away, near a pressure.
+/// By how much a point that slides a `path` over a time wears both sides away, near a pressure. `rubs`: the part of the pressure that resists its slip, where that is not the limit.
 pub(in crate::contact) fn wear_compliance(
     interface: InterfaceInput,
     i: usize,
     path: f64,
     dt: f64,
     pressure: f64,
+    rubs: Option<f64>,
 ) -> Worn {
     let laws = &interface.laws;
     if !laws.wears_away() || laws.feedback != Feedback::Implicit {
@@ -73,16 +74,20 @@ pub(in crate::contact) fn wear_compliance(
     }
     let h = &interface.state.points[i];
     // The part of the pressure that the shear was at the last accepted state.
-    let shear = match h.pressure > 0.0 {
-        true => h.limit / h.pressure,
-        false => 0.0,
+    let shear = match (rubs, h.pressure > 0.0) {
+        (Some(part), _) => part,
+        (None, true) => h.limit / h.pressure,
+        (None, false) => 0.0,
     };
     let way = interface.conditions.cycles() * path;
     let at = WearPoint {
         path: h.path,
         way,
         energy: h.spent,
-        spent: way * h.limit,
+        spent: match rubs {
+            Some(part) => way * part * pressure,
+            None => way * h.limit,
+        },
         pressure,
         speed: path / dt,
     };
@@ -107,6 +112,15 @@ pub(in crate::contact) fn wear_compliance(
     worn
 }
 
+/// What friction dissipates over a path, per pressure and path; `None` where that is the limit, as shear is against the slip in all directions alike.
+fn rubs(response: &Response, path: f64) -> Option<f64> {
+    let [pressure, shear @ ..] = response.traction;
+    (response.ellipse.is_some() && path > 0.0 && pressure > 0.0).then(|| {
+        let [first, second] = response.sliding_path;
+        -(shear[0] * first + shear[1] * second).min(0.0) / (path * pressure)
+    })
+}
+
 /// What the laws answer a point that wears as it slides. How far it slides depends on the pressure, which falls with what is worn off: the way rises from what it
 /// is without wear and is never longer than the whole, so that evaluations one after the other come to its end. Where the rate depends on the pressure they are those of
 /// Newton's method, of a depth that rises with the pressure.
@@ -124,7 +138,8 @@ pub(in crate::contact) fn wearing(
     for _ in 0..EVALUATIONS {
         let path = sliding_distance(interface.definition, &response, stencil.frame_before, moved);
         let pressure = response.traction[0].max(0.0);
-        let worn = wear_compliance(interface, i, path, at.dt, pressure);
+        let rubs = rubs(&response, path);
+        let worn = wear_compliance(interface, i, path, at.dt, pressure, rubs);
         let off = worn.depth(pressure) - at.worn.depth(pressure);
         let turned = worn.slope - at.worn.slope;
         // A smaller change of the depth is none.

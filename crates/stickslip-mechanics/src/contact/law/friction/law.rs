@@ -1,5 +1,6 @@
 //! What a friction law is asked and says.
 
+use super::orthotropy::Orthotropy;
 use crate::math::Vec3;
 
 /// Most state variables of a friction law.
@@ -124,6 +125,11 @@ pub trait FrictionLaw: Send + Sync {
     fn open_state(&self, state: &LawState, dt: f64) -> LawState {
         let _ = dt;
         *state
+    }
+
+    /// How the limit depends on the direction of the shear: it is then that along the axis with the larger one. `None` where all directions are alike.
+    fn orthotropy(&self) -> Option<Orthotropy> {
+        None
     }
 
     /// `false` if there is never any shear traction; saves the tangential unknowns.

@@ -4,6 +4,8 @@ mod coulomb;
 mod exponential_decay;
 mod frictionless;
 mod law;
+mod orthotropic;
+mod orthotropy;
 mod power_law;
 mod profile;
 mod rate_and_state;
@@ -15,6 +17,8 @@ pub use coulomb::Coulomb;
 pub use exponential_decay::ExponentialDecay;
 pub use frictionless::Frictionless;
 pub use law::{FrictionLaw, FrictionPoint, LawState, Limit, MOST_STATES, StateVariable};
+pub use orthotropic::{Around, Orthotropic};
+pub use orthotropy::{Lines, Orthotropy};
 pub use power_law::PowerLaw;
 pub use profile::{Along, Profile};
 pub use rate_and_state::{Evolution, RateAndState};
@@ -29,6 +33,8 @@ crate::family! {
         Frictionless(Frictionless) = "none",
         /// Shear limit proportional to pressure.
         Coulomb(Coulomb) = "coulomb",
+        /// One coefficient along an axis, another across.
+        Orthotropic(Orthotropic) = "orthotropic",
         /// Shear limit a power of the penetration.
         PowerLaw(PowerLaw) = "power-law",
         /// One coefficient to start with, another to slide with.

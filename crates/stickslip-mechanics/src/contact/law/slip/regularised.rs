@@ -2,10 +2,14 @@ use serde::{Deserialize, Serialize};
 
 use super::rule::{SlipRule, SlipState, Tangential};
 use crate::contact::law::normal::positive;
+use crate::friction::ellipse::SlipDirection;
 use crate::registry::Samples;
 
 /// The smooth friction of [Pop 1995](stickslip_base::references::pop_1995), eq. (14)-(20): `t = -limit φ_ε(w)` with the sliding velocity
 /// `w = slip / dt`.
+///
+/// On an ellipse `|w|` is the length by which the direction of slip is divided there: `√((h₁ w₁)² + (h₂ w₂)²)` by the associated rule, `√((w₁/h₁)² + (w₂/h₂)²)` against the
+/// traction, with half axes `h` over the longer one.
 ///
 /// It never quite sticks: under a steady shear `q` below the limit `T` the interface
 /// [creeps](crate::contact::law::slip::creep) at `ε (1 - √(1 - q/T))`, which it reports in the summary. In a quasi-static
@@ -51,7 +55,8 @@ pub fn creep(epsilon: f64, ratio: f64) -> f64 {
 impl SlipRule for Regularised {
     fn traction(&self, limit: f64, motion: &Tangential) -> SlipState {
         let w = [motion.slip[0] / motion.dt, motion.slip[1] / motion.dt];
-        let speed = motion.length(w);
+        let against = motion.cone(limit).against(w);
+        let (speed, along) = (against.size, against.along);
         let epsilon = self.epsilon;
         let (value, slope) = phi(epsilon, speed);
         // φ(w) = f w with f = φ(|w|)/|w|, which is (2 - |w|/ε)/ε at and near rest
@@ -60,11 +65,12 @@ impl SlipRule for Regularised {
         } else {
             value / speed
         };
-        let phi_vector = [f * w[0], f * w[1]];
+        let phi_vector = [f * along[0], f * along[1]];
+        let rest = -limit * f / motion.dt;
         let mut state = SlipState {
             traction: [-limit * phi_vector[0], -limit * phi_vector[1]],
             d_limit: [-phi_vector[0], -phi_vector[1]],
-            d_slip: [[-limit * f / motion.dt, 0.0], [0.0, -limit * f / motion.dt]],
+            d_slip: against.d_along.map(|row| row.map(|d| rest * d)),
             sliding: speed > epsilon,
             sliding_path: motion.slip,
             ..SlipState::default()
@@ -72,13 +78,13 @@ impl SlipRule for Regularised {
         if speed > 0.0 {
             // df/d|w| = (φ' - f)/|w|
             let df = (slope - f) / speed;
-            let toward = motion.length_slope(w, speed);
-            let d_speed = w[0] * w[1] / speed;
-            for (i, along) in w.iter().enumerate() {
-                for (j, toward) in toward.iter().enumerate() {
+            let d_speed = against.size_with_skew;
+            for (i, along) in along.iter().enumerate() {
+                for (j, toward) in against.toward.iter().enumerate() {
                     state.d_slip[i][j] -= limit * along * df * toward / motion.dt;
                 }
-                state.d_skew[i] = -limit * along * df * d_speed;
+                let turned = limit * f * against.along_with_skew[i];
+                state.d_skew[i] = -limit * along * df * d_speed - turned;
             }
         }
         state
@@ -94,11 +100,33 @@ impl SlipRule for Regularised {
     /// A mass on it that central differences move is stable up to `k dt² = 4 m`, as on the spring alone: one increment is
     /// `t₁ = θ (t₀ + k dt v)`, `v₁ = v - dt t₁/m` with some `0 < θ <= 1`, whose eigenvalues have the product θ and the sum
     /// `1 + θ - θ k dt²/m`, so that both lie in the unit circle where `k dt²/m < 2 + 2/θ`.
+    ///
+    /// Against the traction it is the same on an ellipse, with sizes for lengths. By the associated rule the velocity of creep is along the normal of the ellipse, see
+    /// [`Ellipse::nearest`](crate::friction::ellipse::Ellipse::nearest).
     fn sprung(&self, limit: f64, motion: &Tangential) -> SlipState {
         let k = motion.stiffness;
         let trial = [0, 1].map(|i| motion.base[i] - k * motion.slip[i]);
-        let size = motion.length(trial);
         let give = k * motion.dt * self.epsilon;
+        let cone = motion.cone(limit);
+        let slid = |traction: [f64; 2]| {
+            [0, 1].map(|i| motion.slip[i] + (traction[i] - motion.base[i]) / k)
+        };
+        if let Some(ellipse) = motion
+            .ellipse
+            .filter(|e| e.flow == SlipDirection::Associated)
+        {
+            let near = cone.relieved(&ellipse, trial, -k, give);
+            return SlipState {
+                traction: near.shear,
+                d_slip: near.d_motion,
+                d_limit: near.d_limit,
+                d_skew: near.d_skew,
+                sliding: near.slides,
+                sliding_path: slid(near.shear),
+            };
+        }
+        let radial = cone.radial(trial);
+        let size = radial.size;
         let left = limit + give - size;
         // Traction over trial, and how the size of the traction changes with that of the trial and with the limit.
         let (ratio, slope, d_limit) = match left >= 0.0 {
@@ -116,7 +144,7 @@ impl SlipRule for Regularised {
             false => (limit / size, 0.0, 1.0),
         };
         let (along, toward) = match size > 0.0 {
-            true => (trial.map(|t| t / size), motion.length_slope(trial, size)),
+            true => (trial.map(|t| t / size), radial.toward),
             false => ([0.0; 2], [0.0; 2]),
         };
         let traction = trial.map(|t| ratio * t);
@@ -128,26 +156,30 @@ impl SlipRule for Regularised {
                 *d = -k * (unit + turn * along[i] * toward[j]);
             }
         }
-        // d|t*|/dskew = t*₁ t*₂ / |t*|
-        let d_size = along[0] * trial[1];
+        let d_size = if size > 0.0 {
+            radial.size_with_skew
+        } else {
+            0.0
+        };
         SlipState {
             traction,
             d_slip,
             d_limit: along.map(|m| m * d_limit),
             d_skew: along.map(|m| turn * m * d_size),
             sliding: left < 0.0,
-            sliding_path: [0, 1].map(|i| motion.slip[i] + (traction[i] - motion.base[i]) / k),
+            sliding_path: slid(traction),
         }
     }
 
     fn stuck(&self, limit: f64, motion: &Tangential) -> SlipState {
         // the tangent at rest, φ ≈ 2 w/ε
         let slope = 2.0 / (self.epsilon * motion.dt);
-        let phi = motion.slip.map(|s| slope * s);
+        let against = motion.cone(limit).against(motion.slip);
+        let phi = against.along.map(|s| slope * s);
         SlipState {
             traction: phi.map(|phi| -limit * phi),
             d_limit: phi.map(|phi| -phi),
-            d_slip: [[-limit * slope, 0.0], [0.0, -limit * slope]],
+            d_slip: against.d_along.map(|row| row.map(|d| -limit * slope * d)),
             sliding_path: motion.slip,
             ..SlipState::default()
         }

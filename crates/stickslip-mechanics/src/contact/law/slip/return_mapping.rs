@@ -4,7 +4,7 @@ use super::rule::{SlipRule, SlipState, Tangential};
 use crate::registry::Samples;
 
 /// Stick until the limit, then slide: the trial traction `base - ω_T slip` is returned radially to the limit
-/// ([Simo and Laursen 1992](stickslip_base::references::simo_laursen_1992)). There is no creep; what gives in stick is only the
+/// ([Simo and Laursen 1992](stickslip_base::references::simo_laursen_1992)), or to the point of an ellipse that its slip direction asks for. There is no creep; what gives in stick is only the
 /// stiffness of the enforcement, which the augmented Lagrangian removes. No parameters.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -18,15 +18,15 @@ impl SlipRule for ReturnMapping {
             motion.base[0] - w * motion.slip[0],
             motion.base[1] - w * motion.slip[1],
         ];
-        let size = motion.length(trial);
-        if size <= limit * (1.0 + motion.slack) {
+        let cone = motion.cone(limit);
+        if cone.size(trial) <= limit * (1.0 + motion.slack) {
             return SlipState {
                 traction: trial,
                 d_slip: [[-w, 0.0], [0.0, -w]],
                 ..SlipState::default()
             };
         }
-        let slips = motion.cone(limit).boundary(trial, size, -w);
+        let slips = cone.returned(trial, -w);
         SlipState {
             traction: slips.shear,
             d_slip: slips.d_motion,

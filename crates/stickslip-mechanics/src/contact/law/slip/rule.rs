@@ -1,6 +1,7 @@
 //! What a slip rule is asked and says.
 
 use crate::friction::cone::Cone;
+use crate::friction::ellipse::Ellipse;
 
 /// The tangential motion of a contact point over an increment, in the two directions of its frame.
 ///
@@ -17,6 +18,8 @@ pub struct Tangential {
     pub base: [f64; 2],
     /// Cosine of the angle between the two directions.
     pub skew: f64,
+    /// The shape of what friction allows where that is no circle.
+    pub ellipse: Option<Ellipse>,
     /// Fraction by which a trial traction may exceed the limit and still count as stick; zero but in the first iteration of an
     /// increment, where a point that slid before would otherwise slide or stick by rounding alone.
     pub slack: f64,
@@ -28,6 +31,7 @@ impl Tangential {
         Cone {
             limit,
             skew: self.skew,
+            ellipse: self.ellipse,
         }
     }
 
