@@ -203,7 +203,7 @@ const SAYS: &[(&str, &str)] = &[
     ),
     (
         "support.a.set = [\"b.left\", \"b.right\"]",
-        "join several by `set.all.union = [\"b.left\", \"b.right\"]`, and write `set = \"all\"`",
+        "one set is wanted here: join several by `set.all.union = [\"b.left\", \"b.right\"]`, and write `set = \"all\"`",
     ),
     (
         "interface.a.kinematics = \"small\"",

@@ -110,7 +110,7 @@ pub(super) fn friction_error(interface: &InterfaceForce, stage: &Stage) -> Frict
     cone
 }
 
-/// What friction allows at a point where it depends on the direction, by the axis where the point is now, and the shear in the frame of that.
+/// What friction allows at a point where it depends on the direction, by the axis at the start of the increment, and the shear in its frame now.
 fn allowed(
     interface: &InterfaceForce,
     i: usize,
@@ -118,11 +118,11 @@ fn allowed(
     shear: Vec3,
 ) -> Option<(Cone, [f64; 2])> {
     let frame = &e.frames.now;
-    let x = interface.points[i].position(&interface.cache.geometry.x);
+    let x = interface.points[i].position(&interface.cache.geometry.before);
     let cone = Cone {
         limit: 0.0,
         skew: dot(frame[0], frame[1]),
-        ellipse: Some(interface.definition.ellipse(x, *frame)?),
+        ellipse: Some(interface.definition.ellipse(x, e.frames.before)?),
     };
     Some((cone, components(shear, frame, interface.dofs.dim)))
 }

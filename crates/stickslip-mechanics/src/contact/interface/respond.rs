@@ -58,9 +58,10 @@ pub(super) fn respond(met: Met, scene: &Scene, batch: &mut Batch) -> Evaluation 
         sticking: before.status != Status::Slip,
         state: interface.state.law_state(i),
         place: interface.definition.place(&interface.points[i]),
+        // By the axis at the start of the increment: how it turns on the way is no part of the tangent then.
         ellipse: interface.ellipse(
-            interface.points[i].position(&scene.geometry.x),
-            stencil.frame,
+            interface.points[i].position(&scene.geometry.before),
+            stencil.frame_before,
         ),
         pressed: scene.wants.pressed,
         answers: scene.answers.get(i).copied().unwrap_or_default(),

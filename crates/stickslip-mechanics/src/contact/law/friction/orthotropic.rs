@@ -139,7 +139,7 @@ impl Samples for Orthotropic {
     fn samples() -> Vec<Self> {
         let scratched = Orthotropic {
             mu: [0.5, 0.2],
-            axis: Some(vec![1.0, 0.0, 0.0]),
+            axis: Some(vec![2.0, 1.0, 0.5]),
             around: None,
             slip: SlipDirection::Associated,
             cap: None,
@@ -150,7 +150,7 @@ impl Samples for Orthotropic {
                 mu: [0.1, 0.3],
                 axis: None,
                 around: Some(Around {
-                    centre: Vec::new(),
+                    centre: vec![0.3, -1.0, 0.0],
                     axis: vec![0.0, 0.0, 1.0],
                 }),
                 slip: SlipDirection::AgainstTraction,

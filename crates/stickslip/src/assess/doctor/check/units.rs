@@ -240,8 +240,9 @@ fn alone(model: &Model, n: &Numbers, heavy: bool) -> Option<Finding> {
             ));
         }
     }
-    // A body of hard material of more than 20 m is hardly given in metres.
-    if n.modulus > HARD_MODULUS && si && !mm && n.size > 20.0 {
+    // A body of hard material of more than 20 m is hardly given in metres, but for rock: no machine has 100 km in millimetres either.
+    let machine = n.size > 20.0 && n.size < 1e5;
+    if n.modulus > HARD_MODULUS && si && !mm && machine {
         return Some(blame(
             finding(format!(
                 "body {name} is {} large and its modulus {}: is the mesh in millimetres and the modulus in Pa?",
