@@ -39,6 +39,9 @@ Diagonal = Literal["up", "down", "alternating", "union-jack"]
 #: The element family.
 ElementKind = Literal["line2", "line3", "tri3", "tri6", "quad4", "quad8", "tet4", "tet10", "hex8", "hex20", "wedge6", "wedge15"]
 
+#: How the state of rate-and-state friction changes.
+Evolution = Literal["ageing", "slip"]
+
 #: How quadrilateral facets of a primary surface are taken.
 FacetShape = Literal["bilinear", "triangles"]
 
@@ -80,6 +83,21 @@ Start = Literal["as-meshed", "snap", "offset", "ramp"]
 
 #: What becomes of the plane nearest to all heights.
 Tilt = Literal["remove", "keep"]
+
+
+class Along(Table):
+    """A table over the reference coordinate along a direction, linear between its rows and constant beyond them.
+
+    Parameters
+    ----------
+    along
+        Direction of the coordinate, which is `along · x` for a point at `x`: [0, -1] is the depth below `y = 0`.
+    table
+        Rows [coordinate, value]; coordinates ascend.
+    """
+
+    def __init__(self, *, along: Numbers, table: Rows) -> None:
+        super().__init__(locals())
 
 
 class AmplitudeTable(Table):
@@ -936,6 +954,41 @@ class Friction(Table):
         """
         return Friction({"tabular": Table(locals())})
 
+    @staticmethod
+    def rate_and_state(*, a: Profile, b: Profile, dc: Profile, f0: float, v0: float, velocity: Profile, eta: float | None = None, evolution: Evolution | None = None, ratio: Profile | None = None, theta: Profile | None = None) -> Friction:
+        """Rate-and-state friction of Dieterich 1979 and Ruina 1983, regularised at low speed as by
+        Rice, Lapusta and Ranjith 2001: shear
+        `p a asinh(V/(2 V₀) exp((f₀ + b ln(V₀ θ/D_c))/a)) + η V` at the sliding velocity V. The state θ is about the time for which contacts of roughness last:
+        they heal while surfaces rest and are renewed over the way `D_c`.
+
+        Surfaces under this law always slide, however slowly: the slip rule is not asked, and V is of any size. V and θ at the end of an increment are solved together
+        with it; both are fields of results.
+
+        Parameters
+        ----------
+        a
+            Direct effect a: by how much friction rises with ln V at once.
+        b
+            Evolution effect b: by how much it falls with it after the way `dc`. Sliding can be unstable where `b > a`.
+        dc
+            Way `D_c` over which the state is renewed.
+        f0
+            Coefficient of friction in steady sliding at `v0`.
+        v0
+            Reference velocity V₀.
+        velocity
+            Sliding velocity at the start.
+        eta
+            Radiation damping η [Pa s/m]: shear modulus over twice the speed of shear waves, where waves that sliding sends off are not computed. Default: 0.
+        evolution
+            How the state changes. Default: `ageing`.
+        ratio
+            Instead of `theta`: shear over pressure at the start, radiation damping left out. θ is what carries it at `velocity`.
+        theta
+            State θ at the start. Default: `dc` over `velocity`, that of steady sliding.
+        """
+        return Friction({"rate-and-state": Table(locals())})
+
 
 class FrictionRange(Table):
     """A map of the modes over a factor of the friction, the speed or the load of the step.
@@ -1332,9 +1385,12 @@ class Increments(Table):
         Size that is never exceeded [fraction of the duration].
     smallest
         Size below which the analysis gives up [fraction of the duration].
+    state_change
+        Largest change of the state variables of friction laws over an increment, relative to what they are: of θ of rate-and-state friction, and of the slip relative to `dc`. Increments
+        are chosen by it, and one over which more than twice as much changes is halved. The error falls with its square. No meaning under laws without a state.
     """
 
-    def __init__(self, *, fixed: int | None = None, initial: float | None = None, largest: float | None = None, smallest: float | None = None) -> None:
+    def __init__(self, *, fixed: int | None = None, initial: float | None = None, largest: float | None = None, smallest: float | None = None, state_change: float | None = None) -> None:
         super().__init__(locals())
 
 
@@ -2037,11 +2093,13 @@ class Output(Table):
         asks for.
     history_every
         A row of `history.csv` is written every so many increments, at times of output, and at the end of every step.
+    slip_events
+        Events of fast slip, as earthquakes, of interfaces under friction laws that keep their speed: a table `interfaces/NAME-events.csv`.
     times
         Further times at which fields are written, increasing. Increments land on them.
     """
 
-    def __init__(self, *, checkpoint: CheckpointPlan | None = None, every: int | None = None, fatigue: Fatigue | None = None, frd: Frd | None = None, history_every: int | None = None, times: Numbers | None = None) -> None:
+    def __init__(self, *, checkpoint: CheckpointPlan | None = None, every: int | None = None, fatigue: Fatigue | None = None, frd: Frd | None = None, history_every: int | None = None, slip_events: SlipEvents | None = None, times: Numbers | None = None) -> None:
         super().__init__(locals())
 
 
@@ -2374,6 +2432,21 @@ class SetWeight(Table):
     """
 
     def __init__(self, *, set: str, weight: float) -> None:
+        super().__init__(locals())
+
+
+class SlipEvents(Table):
+    """`output.slip-events`: when sliding counts as an event. Events are found in the rows of the history.
+
+    Parameters
+    ----------
+    speed
+        An event lasts while some point slides faster than that.
+    modulus
+        Shear modulus by which slip integrated over the surface is a moment; the table has no moment without it.
+    """
+
+    def __init__(self, *, speed: float, modulus: float | None = None) -> None:
         super().__init__(locals())
 
 
@@ -2957,3 +3030,7 @@ Expansion = Union[float, Numbers, ExpansionTable]
 
 #: How many cycles one that is computed stands for: what slides in it wears as often.
 Jump = Union[int, ChosenJump]
+
+
+#: A parameter of a law: one number, or a table over a coordinate.
+Profile = Union[float, Along]
