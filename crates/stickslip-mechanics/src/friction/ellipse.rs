@@ -147,8 +147,8 @@ impl Ellipse {
         for i in (0..2).filter(|&i| square[i] > 0.0) {
             let change = -shear[i] / (square[i] + lambda);
             out.d_limit[i] = change * with_limit;
-            for j in 0..2 {
-                out.d_trial[i][j] += change * with_trial[j];
+            for (d, part) in out.d_trial[i].iter_mut().zip(with_trial) {
+                *d += change * part;
             }
         }
         out
