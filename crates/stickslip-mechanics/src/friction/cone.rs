@@ -223,7 +223,7 @@ impl Cone {
         }
     }
 
-    /// The shear of a spring in series with the associated rule, see [`Ellipse::nearest`].
+    /// The shear of a spring in series with the associated rule, see `Ellipse::nearest`.
     pub fn relieved(
         &self,
         ellipse: &Ellipse,

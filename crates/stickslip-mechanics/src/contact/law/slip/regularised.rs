@@ -102,7 +102,7 @@ impl SlipRule for Regularised {
     /// `1 + θ - θ k dt²/m`, so that both lie in the unit circle where `k dt²/m < 2 + 2/θ`.
     ///
     /// Against the traction it is the same on an ellipse, with sizes for lengths. By the associated rule the velocity of creep is along the normal of the ellipse, see
-    /// [`Ellipse::nearest`](crate::friction::ellipse::Ellipse::nearest).
+    /// `Ellipse::nearest`.
     fn sprung(&self, limit: f64, motion: &Tangential) -> SlipState {
         let k = motion.stiffness;
         let trial = [0, 1].map(|i| motion.base[i] - k * motion.slip[i]);
