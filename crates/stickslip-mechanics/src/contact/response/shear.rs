@@ -117,7 +117,7 @@ fn flow(limit: &impl Fn(f64) -> Limit, size: f64, motion: &Tangential) -> (f64, 
     if !high.is_finite() || high <= low {
         return (0.0, limit(0.0));
     }
-    // Where the spring and the speed that there was share the shear.
+    // Newton's method starts from the right end of the interval.
     let mut log = high;
     for _ in 0..FLOW_ITERATIONS {
         let way = log.exp();

@@ -235,12 +235,9 @@ impl FrictionLaw for RateAndState {
         let state = self.evolved(&here, theta, at.dt, Self::mean_velocity(at, before));
         let theta = here.dc / self.v0 * state.value.exp();
         if end.value <= 0.0 {
-            let state = [theta, 0.0, 0.0, 0.0];
-            // The slope at rest is finite, if only just.
-            let d_speed = 0.0;
+            // A velocity that is too small for a number carries nothing.
             return Limit {
-                d_speed,
-                state,
+                state: [theta, 0.0, 0.0, 0.0],
                 ..Limit::default()
             };
         }
