@@ -388,6 +388,23 @@ fn what_is_wrong_with_the_axes_is_said() {
     }
 }
 
+/// A law that comes with a step is looked at like that of the interface.
+#[test]
+fn axes_of_a_law_that_comes_with_a_step_are_checked() {
+    let change =
+        "[[step]]\nchange.sole.friction.orthotropic = { mu = [0.3, 0.1], axis = [0, 0, 1] }\n";
+    let steps = format!("{DRAG}\n{change}");
+    let said = support::complaint(&dragged(30.0, "friction.coulomb.mu = 0.3", "", &steps));
+    assert!(
+        said.contains("normal to the surface") && said.contains("change.sole"),
+        "{said}"
+    );
+    let along = steps.replace("axis = [0, 0, 1]", "axis = [1, 0, 0]");
+    let text = dragged(30.0, "friction.coulomb.mu = 0.3", "", &along);
+    let built = support::problem(&text).build(Path::new("."));
+    assert!(built.is_ok(), "{:?}", built.err().map(|e| e.to_string()));
+}
+
 /// No friction across the scratches: what is left is that along them, and across the block slides freely.
 #[test]
 fn a_coefficient_may_be_zero_across_the_axis() {

@@ -50,7 +50,7 @@ pub use resultant::{
     Resultant, centre_and_normal, closed, committed_tally, resultant, sliding_area,
 };
 pub use sheet::{Sheet, sheet};
-pub use sliding::{Sliding, sliding};
+pub use sliding::{SlidingReport, sliding};
 pub use snaps::snaps;
 pub use spacing::coarser;
 pub use table::{initial_gaps, table};
